@@ -1,0 +1,1 @@
+#include "cad/engines.h"

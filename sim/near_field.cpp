@@ -1,0 +1,1 @@
+#include "sim/near_field.h"

@@ -1,0 +1,1 @@
+#include "optim/hooke_jeeves.h"
