@@ -13,12 +13,12 @@ enum class Ending {
   no_start,  ///< the objective has no finite value at the start
 };
 
-/// One accepted or tried iterate of a search.
+/// The state of a search after one of its iterations.
 struct Iterate {
   long k;                 ///< successes so far: index in the sequence of ever-improving solutions
-  long iteration;         ///< exploratory + pattern steps so far
+  long iteration;         ///< iterations so far, those that only reduced the step included
   long evaluations;       ///< objective values computed so far (cache hits not counted)
-  double step;            ///< present step as a share of the first
+  double step;            ///< present step as a share of the first, after this iteration's reduction
   std::string move;       ///< "start", "exploratory", "pattern", "reduce"
   std::vector<double> x;  ///< best point so far
   double value;           ///< its objective
@@ -27,15 +27,15 @@ struct Iterate {
 /// How a search ended; `best` is never worse than the start.
 struct Outcome {
   Ending ending;
-  std::string sentence;  ///< the ending in words
-  std::vector<double> best;
-  double value = 0;
+  std::string sentence;      ///< the ending in words
+  std::vector<double> best;  ///< the start when the ending is no_start
+  double value = 0;          ///< infinite when the ending is no_start
   double start_value = 0;
-  long successes = 0;  ///< the paper's k
-  long iterations = 0;
+  long successes = 0;   ///< the paper's k
+  long iterations = 0;  ///< the last one may have been broken off by a limit or a stop
   long evaluations = 0;
   long cache_hits = 0;
-  std::vector<Iterate> history;
+  std::vector<Iterate> history;  ///< the start, then one entry per iteration that improved or reduced
 };
 
 }  // namespace catoptric::optim

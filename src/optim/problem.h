@@ -11,15 +11,20 @@ namespace catoptric::optim {
 struct Variable {
   std::string name;
   double start;
-  double step;  ///< first step, > 0
-  double lower, upper;
+  double step;          ///< first step, > 0
+  double lower, upper;  ///< may be infinite; lower = start = upper makes a variable that never moves
 };
 
 /// Minimise evaluate(x) over the box of the variables. `evaluate` may return infinity for a point that cannot
-/// be built; it is never called outside the box.
+/// be built (a NaN counts as infinity); it is never called outside the box.
 struct Problem {
   std::vector<Variable> variables;
   std::function<double(std::span<const double>)> evaluate;
 };
+
+/// Checks what every search relies on.
+/// @fails InputError, naming the variable, for an empty problem, a missing objective, a step that is not
+///        positive and finite, a start that is not finite or outside its bounds
+void require_sound(const Problem& problem);
 
 }  // namespace catoptric::optim

@@ -1,0 +1,38 @@
+#include "optim/problem.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/errors.h"
+
+namespace catoptric::optim {
+namespace {
+
+void require_sound(const Variable& variable) {
+  const auto refuse = [&](std::string what, std::string why, std::string hint) {
+    throw InputError(
+        {std::move(what), fmt::format("variable '{}'", variable.name), std::move(why), std::move(hint)});
+  };
+  if (!std::isfinite(variable.start))
+    refuse("the start is not a number", fmt::format("it is {}", variable.start), "give a finite start");
+  if (!(variable.step > 0) || !std::isfinite(variable.step))
+    refuse("the step cannot be used", fmt::format("{} is not positive and finite", variable.step),
+           "a step of about a tenth of the variable's range");
+  if (!(variable.lower <= variable.start && variable.start <= variable.upper))
+    refuse("the start lies outside its bounds",
+           fmt::format("{} is not within [{}, {}]", variable.start, variable.lower, variable.upper),
+           "widen the bounds or move the start");
+}
+
+}  // namespace
+
+void require_sound(const Problem& problem) {
+  if (problem.variables.empty())
+    throw InputError({"there is nothing to search", "", "no variable is free", "name at least one variable"});
+  if (!problem.evaluate)
+    throw InputError({"there is nothing to search", "", "the problem has no objective", "set one"});
+  for (const Variable& variable : problem.variables) require_sound(variable);
+}
+
+}  // namespace catoptric::optim
