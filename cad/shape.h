@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include "base/profile.h"
+
+namespace catoptric::cad {
+
+/// On which side of the optical surface the wall stands. Outside is the side away from the room that the
+/// generatrix encloses with the axis, the usual one; inside is for a mirror that is lit from outside.
+/// A flat mirror has its wall outside at greater z when the profile runs outward.
+enum class WallSide { outside, inside };
+
+/// A wall of constant thickness, measured along the normal of the optical surface.
+struct Wall {
+  double thickness_mm = 0;
+  WallSide side = WallSide::outside;
+};
+
+/// What the CAD kernel says of a shape.
+struct ShapeFigures {
+  bool is_valid;      ///< BRepCheck finds no fault
+  double area_mm2;    ///< of all faces
+  double volume_mm3;  ///< 0 for the open optical surface
+  int face_count;
+};
+
+/// Least and greatest extent (Profile::diagonal_mm) of a part that can become a CAD shape. The kernel takes
+/// two points 1e-7 mm apart for one; below the least extent that is more than 1e-5 of the part and files no
+/// longer come back as they were written, above the greatest it is lost in the rounding of the numbers.
+inline constexpr double least_cad_extent_mm = 1e-2;
+inline constexpr double greatest_cad_extent_mm = 1e6;
+
+/// Builds the optical surface, or the solid that stands on it, and measures it.
+/// @in    wall: nothing for the open surface
+/// @fails CadError when the part is too small or too large, or the wall cannot be built (see the message)
+/// @error of the shape as built: relative 1e-9, 1e-6 in the area where the profile has kinks. The wall's
+/// outer
+///        side is within 1e-9 of the part, or 1e-7 mm if that is more, of the parallel surface
+ShapeFigures shape_figures(const Profile& profile, const std::optional<Wall>& wall);
+
+}  // namespace catoptric::cad
