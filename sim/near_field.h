@@ -21,15 +21,19 @@ class NearField {
  public:
   enum class Shape { disc, rectangle };
 
-  /// @in normal and `along` need not be unit; `along` (the first rectangle axis) is made perpendicular to
-  /// normal
+  /// @in    normal and `along` need not be unit; `along` (the first rectangle axis) is made perpendicular to
+  ///        normal
+  /// @fails InputError for a number that is not finite, a size that is not positive, a normal of no length,
+  ///        `along` parallel to the normal, a material that gives more light than it gets
   static NearField disc(const Vector3& center_mm, const Vector3& normal, double radius_mm,
                         std::optional<Material> material = {});
   static NearField rectangle(const Vector3& center_mm, const Vector3& normal, const Vector3& along,
                              double width_mm, double height_mm, std::optional<Material> material = {});
 
   /// About `count` points spread uniformly by area, the same every time: exactly `count` on a disc (sunflower
-  /// spiral), the nearest grid on a rectangle.
+  /// spiral), on a rectangle the centres of a grid of nearly square cells, as near to `count` as they come.
+  /// No point lies on the edge, none in the centre of a disc.
+  /// @from  Vogel 1979 for the spiral
   std::vector<FieldSample> samples(std::size_t count) const;
 
   Shape shape() const { return shape_; }
@@ -44,6 +48,8 @@ class NearField {
 
   /// Plane coordinates about the centre, mm.
   Vector2 to_plane(const Vector3& point_mm) const;
+  /// The point with these plane coordinates.
+  Vector3 to_space(const Vector2& plane_mm) const;
   /// Whether plane coordinates lie on the patch itself.
   bool contains(const Vector2& plane_mm) const;
 

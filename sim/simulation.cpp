@@ -1,1 +1,38 @@
 #include "sim/simulation.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "base/profile.h"
+#include "base/tolerance.h"
+
+namespace catoptric::sim {
+
+std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample> samples) {
+  std::vector<double> direct(samples.size());
+  const double lift_mm = Tolerance::for_scale(scene.reflector.profile().diagonal_mm()).lift_mm;
+  // One probe a chunk: engines may keep caches in it, and those must not depend on the number of threads.
+  constexpr std::size_t chunk = 64;
+  tbb::parallel_for(std::size_t{0}, (samples.size() + chunk - 1) / chunk, [&](std::size_t part) {
+    const auto probe = scene.reflector.probe();
+    for (std::size_t i = part * chunk; i < std::min(samples.size(), (part + 1) * chunk); ++i)
+      direct[i] = scene.source.direct_w_per_mm2(samples[i].point_mm, samples[i].normal, *probe, lift_mm);
+  });
+  return direct;
+}
+
+FieldEstimate simulate(const Scene& scene, std::span<const FieldSample> samples, const PhotonOptions& photons,
+                       const EstimateOptions& estimate) {
+  check(estimate);
+  const TracedPhotons traced = trace_photons(scene, photons, recording_margin_mm(scene.near_field, estimate));
+  MapEstimate reflected = PhotonMap(scene.near_field, traced).estimate(samples, estimate);
+  return {direct_field(scene, samples),
+          std::move(reflected.irradiance),
+          std::move(reflected.noise),
+          std::move(reflected.kernel_radius_mm),
+          traced.energy,
+          traced.counts};
+}
+
+}  // namespace catoptric::sim

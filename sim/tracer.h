@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/emission.h"
+#include "sim/recorded_area.h"
+#include "sim/scene.h"
+
+namespace catoptric::sim {
+
+struct PhotonOptions {
+  std::uint64_t photons = 100'000;  ///< emitted towards the reflector; 0 is allowed and gives a dark field
+  Sampler sampler = Sampler::random;
+  std::uint64_t seed = 1;
+  std::uint64_t stream = 0;  ///< another stream is another independent set of photons
+  int most_interactions = 1000;
+};
+
+/// Where the emitted power went. Photons are counted as whole numbers, so the parts add up to emitted_w
+/// within some roundings.
+struct EnergyLedger {
+  double emitted_w = 0;   ///< into the projection map
+  double missed_w = 0;    ///< met no mirror: left, or ended on the near field's own surface untouched
+  double absorbed_w = 0;  ///< in the mirror
+  double received_w = 0;  ///< absorbed by the near field after touching the mirror, or crossed the invisible
+                          ///< near field's own area against its normal at least once and then left
+  double escaped_w = 0;   ///< touched the mirror and left without being received
+  double cut_off_w = 0;   ///< stopped after most_interactions
+};
+
+struct PhotonCounts {
+  std::uint64_t emitted = 0;
+  std::uint64_t met_mirror = 0;    ///< photons that touched the mirror at least once
+  std::uint64_t stored = 0;        ///< meetings with the near field's plane that were recorded
+  std::uint64_t interactions = 0;  ///< with the mirror and with a real near field, all photons together
+};
+
+/// A photon that met the near field's plane after touching the mirror.
+struct Crossing {
+  double x_mm, y_mm;              ///< plane coordinates of the near field
+  std::uint64_t photon_and_side;  ///< twice the photon's number, plus 1 when it arrived against the normal
+  Vector2 plane_mm() const { return {x_mm, y_mm}; }
+  std::uint64_t photon() const { return photon_and_side >> 1; }
+  bool from_front() const { return (photon_and_side & 1) != 0; }
+  bool operator==(const Crossing&) const = default;
+};
+static_assert(sizeof(Crossing) == 24, "a stored photon takes at most 32 bytes");
+
+/// Photons after their flight, in the order of their numbers.
+struct TracedPhotons {
+  std::vector<Crossing> crossings;
+  RecordedArea area;  ///< all crossings of this area are there
+  double photon_power_w = 0;
+  EnergyLedger energy;
+  PhotonCounts counts;
+};
+
+/// First pass of the photon map: emission towards the mirror, Russian roulette at every surface, crossings of
+/// the near field's plane recorded once the mirror has been touched, out to `margin_mm` beyond the patch of
+/// an invisible near field.
+/// @out   the same bits for any number of threads; photon i gets the same numbers whatever the engine
+/// @fails InputError for more than most_photons photons, most_interactions below 1, or a bad mirror material
+/// @cost  photons times one or two intersections; 24 bytes per crossing
+/// @from  paper section 4.4, stage 1
+TracedPhotons trace_photons(const Scene& scene, const PhotonOptions& options, double margin_mm);
+
+}  // namespace catoptric::sim
