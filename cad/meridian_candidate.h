@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "cad/meridian_line.h"
+#include "cad/meridian_refine.h"
+
+namespace catoptric::cad::meridian {
+
+/// A hit before it is dressed as one.
+struct Candidate {
+  double t;  ///< along the line, from the near origin
+  double s;  ///< on the span
+  double r, z;
+  int span;
+};
+
+/// A hit at about t, with t moved to where the line is nearest to the surface point that lies in its own
+/// azimuth.
+Candidate make_candidate(const NearRay& near, double t, double s, double r, double z, int span);
+
+/// Point, normal and distance of a hit.
+Hit make_hit(const SpanTable& table, const NearRay& near, const Candidate& candidate);
+
+/// All hits of a line in 113-bit arithmetic, for rays that double cannot decide: tangents, near misses of the
+/// vertex, ends met exactly. A touch that even this arithmetic does not resolve counts as one hit; a line
+/// that lies in the surface (along a cone's side, in a flat part) meets it nowhere.
+/// @cost  0.1 to 1 ms
+void find_exactly(const SpanTable& table, const Ray& ray, const NearRay& near, std::vector<Candidate>& out);
+
+/// A line steeper than this across the axis is taken as horizontal: over the part its height changes by less
+/// than half a rounding.
+inline constexpr double horizontal_slope = 0x1p-54;
+
+}  // namespace catoptric::cad::meridian
