@@ -25,10 +25,10 @@ struct ShapeFigures {
   int face_count;
 };
 
-/// Least and greatest extent (Profile::diagonal_mm) of a part that can become a CAD shape. The kernel takes
-/// two points 1e-7 mm apart for one; below the least extent that is more than 1e-5 of the part and files no
-/// longer come back as they were written, above the greatest it is lost in the rounding of the numbers.
-inline constexpr double least_cad_extent_mm = 1e-2;
+/// Least and greatest extent (Profile::diagonal_mm) of a part that can become a CAD shape: 1 um to 1 km. CAD
+/// kernels take two points 1e-7 mm apart for one, which at the lower end is 1e-4 of the part: what we write
+/// comes back bit for bit, but other programs may heal details finer than that away.
+inline constexpr double least_cad_extent_mm = 1e-3;
 inline constexpr double greatest_cad_extent_mm = 1e6;
 
 /// Builds the optical surface, or the solid that stands on it, and measures it.

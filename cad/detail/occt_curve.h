@@ -11,9 +11,11 @@ namespace catoptric::cad::detail {
 /// @fails CadError when OCCT refuses the numbers (two knots nearer than a rounding)
 Handle(Geom_BSplineCurve) occt_curve(const Profile& profile, double scale = 1.0);
 
-/// The same with an end that lies within OCCT's confusion (1e-7 model units) of the axis set on it; there a
-/// tiny circle would stay open in every CAD program.
-Handle(Geom_BSplineCurve) occt_curve_on_axis(const Profile& profile, double scale = 1.0);
+/// The same curve as CAD programs want it: clamped (they cut other knots off at the ends), and an end that
+/// lies within OCCT's confusion (1e-7 model units) of the axis set on it, where a tiny circle would stay
+/// open.
+/// @error bit for bit where the profile is clamped, a few roundings elsewhere
+Handle(Geom_BSplineCurve) occt_cad_curve(const Profile& profile, double scale = 1.0);
 
 /// The generatrix held by a curve in the plane y = 0 (which the caller has checked), lengths times `scale`.
 /// A periodic curve is opened at its seam. Weights beyond the range we allow are divided by a common factor.

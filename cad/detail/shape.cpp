@@ -83,7 +83,7 @@ void check_validity(const TopoDS_Shape& shape, std::string_view what) {
 TopoDS_Shape optical_face(const Profile& profile) {
   check_extent(profile);
   return guarded("build the optical surface", "", [&] {
-    const TopoDS_Face face = revolved_face(occt_curve_on_axis(profile));
+    const TopoDS_Face face = revolved_face(occt_cad_curve(profile));
     check_validity(face, "optical surface");
     return TopoDS_Shape(face);
   });
@@ -94,7 +94,7 @@ TopoDS_Shape walled_solid(const Profile& profile, const Wall& wall) {
   const double tolerance_mm = std::max(wall_error_of_part * profile.diagonal_mm(), Precision::Confusion());
   const std::vector<SectionPiece> section = wall_section(profile, wall, tolerance_mm);
   return guarded("build the walled solid", "", [&] {
-    std::vector<TopoDS_Shape> faces{revolved_face(occt_curve_on_axis(profile))};
+    std::vector<TopoDS_Shape> faces{revolved_face(occt_cad_curve(profile))};
     for (const SectionPiece& piece : section)
       faces.push_back(piece.kind == SectionPiece::Kind::spline ? revolved_face(piece.curve)
                                                                : swept_face(piece));

@@ -119,7 +119,7 @@ class SectionBuilder {
 
   std::vector<SectionPiece> build() {
     const std::vector<SmoothPart> parts = split_at_kinks(profile_);
-    const Handle(Geom_BSplineCurve) generatrix = occt_curve_on_axis(profile_);
+    const Handle(Geom_BSplineCurve) generatrix = occt_cad_curve(profile_);
     start_end(parts.front().spans.front(), 0);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       add_part(generatrix, parts[i]);

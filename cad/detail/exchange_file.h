@@ -1,0 +1,42 @@
+#pragma once
+
+#include <TopoDS_Shape.hxx>
+#include <filesystem>
+#include <string>
+
+#include "cad/export.h"
+
+namespace catoptric::cad::detail {
+
+/// What an exchange file says about itself, ready to be written.
+struct FileLabels {
+  std::string file_name;
+  std::string product, author, organization;
+  std::string time_stamp;  ///< ISO 8601, never empty
+};
+
+/// Labels from the options, checked.
+/// @fails InputError when a text is not printable ASCII or the time stamp has another form
+FileLabels make_labels(const std::filesystem::path& path, const ExportOptions& options);
+
+/// Writers and readers of exact formats. Shapes are in mm. Reals are printed with 17 digits.
+/// @fails CadError when OCCT refuses, IoError when the file cannot be written
+void write_step(const TopoDS_Shape& shape, const std::filesystem::path& path, const FileLabels& labels,
+                LengthUnit unit, StepSchema schema);
+void write_iges(const TopoDS_Shape& shape, const std::filesystem::path& path, const FileLabels& labels,
+                LengthUnit unit, IgesMode mode);
+void write_brep(const TopoDS_Shape& shape, const std::filesystem::path& path);
+
+/// The file's shape in mm.
+/// @fails CadError when there is no such file, it is not of that format or holds no shape
+TopoDS_Shape read_step(const std::filesystem::path& path);
+TopoDS_Shape read_iges(const std::filesystem::path& path);
+TopoDS_Shape read_brep(const std::filesystem::path& path);
+
+/// Writers of meshes; the shape is meshed within chord_mm.
+/// @out   number of triangles
+int write_stl(const TopoDS_Shape& shape, const std::filesystem::path& path, LengthUnit unit, double chord_mm);
+int write_glb(const TopoDS_Shape& shape, const std::filesystem::path& path, const FileLabels& labels,
+              double chord_mm);
+
+}  // namespace catoptric::cad::detail

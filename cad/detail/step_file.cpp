@@ -1,0 +1,157 @@
+#include <APIHeaderSection_MakeHeader.hxx>
+#include <IFSelect_ReturnStatus.hxx>
+#include <Interface_Static.hxx>
+#include <STEPControl_Reader.hxx>
+#include <STEPControl_Writer.hxx>
+#include <StepBasic_CalendarDate.hxx>
+#include <StepBasic_CoordinatedUniversalTimeOffset.hxx>
+#include <StepBasic_LocalTime.hxx>
+#include <StepBasic_Organization.hxx>
+#include <StepBasic_Person.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepData_Protocol.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepData_StepWriter.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <cstdlib>
+#include <fstream>
+
+#include "cad/detail/exchange_file.h"
+#include "cad/detail/occt_guard.h"
+#include "cad/detail/real_format.h"
+
+namespace catoptric::cad::detail {
+namespace {
+
+Handle(TCollection_HAsciiString) text(const std::string& content) {
+  return new TCollection_HAsciiString(content.c_str());
+}
+
+std::string unit_name(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::millimetre:
+      return "MM";
+    case LengthUnit::centimetre:
+      return "CM";
+    case LengthUnit::metre:
+      return "M";
+    case LengthUnit::inch:
+      return "INCH";
+  }
+  return "MM";
+}
+
+std::string schema_name(StepSchema schema) {
+  switch (schema) {
+    case StepSchema::ap203:
+      return "AP203";
+    case StepSchema::ap214:
+      return "AP214IS";
+    case StepSchema::ap242:
+      return "AP242DIS";
+  }
+  return "AP214IS";
+}
+
+int number(const std::string& stamp, std::size_t from, std::size_t length) {
+  return std::atoi(stamp.substr(from, length).c_str());
+}
+
+/// Names, dates and persons inside the data section. OCCT numbers the products of one process, and AP203 puts
+/// in the login name and the time of day.
+void label_entities(const Handle(StepData_StepModel) & model, const FileLabels& labels) {
+  const std::string& stamp = labels.time_stamp;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Handle(Standard_Transient) entity = model->Value(i);
+    if (const auto product = Handle(StepBasic_Product)::DownCast(entity); !product.IsNull()) {
+      product->SetName(text(labels.product));
+      product->SetId(text(labels.product));
+    } else if (const auto person = Handle(StepBasic_Person)::DownCast(entity); !person.IsNull()) {
+      person->SetId(text(labels.author));
+      person->SetLastName(text(labels.author));
+      person->SetFirstName(text(""));
+      person->UnSetMiddleNames();
+    } else if (const auto firm = Handle(StepBasic_Organization)::DownCast(entity); !firm.IsNull()) {
+      firm->SetId(text(labels.organization));
+      firm->SetName(text(labels.organization));
+    } else if (const auto date = Handle(StepBasic_CalendarDate)::DownCast(entity); !date.IsNull()) {
+      date->SetYearComponent(number(stamp, 0, 4));
+      date->SetMonthComponent(number(stamp, 5, 2));
+      date->SetDayComponent(number(stamp, 8, 2));
+    } else if (const auto time = Handle(StepBasic_LocalTime)::DownCast(entity); !time.IsNull()) {
+      time->SetHourComponent(number(stamp, 11, 2));
+      time->SetMinuteComponent(number(stamp, 14, 2));
+      time->SetSecondComponent(number(stamp, 17, 2));
+    } else if (const auto zone = Handle(StepBasic_CoordinatedUniversalTimeOffset)::DownCast(entity);
+               !zone.IsNull()) {
+      zone->Init(0, false, 0, StepBasic_aobExact);
+    }
+  }
+}
+
+void label_header(const Handle(StepData_StepModel) & model, const FileLabels& labels) {
+  APIHeaderSection_MakeHeader header(model);
+  header.SetName(text(labels.file_name));
+  header.SetTimeStamp(text(labels.time_stamp));
+  header.SetAuthorValue(1, text(labels.author));
+  header.SetOrganizationValue(1, text(labels.organization));
+  header.SetOriginatingSystem(text("catoptric"));
+  header.SetAuthorisation(text(""));
+  header.SetDescriptionValue(1, text("mirror of revolution"));
+}
+
+/// Prints the model itself, since the writer's own file has 12 digits.
+void print(STEPControl_Writer& writer, const Handle(StepData_StepModel) & model,
+           const std::filesystem::path& path) {
+  StepData_StepWriter printer(model);
+  print_all_digits(printer.FloatWriter());
+  printer.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  const bool printed = printer.Print(out);
+  out.flush();
+  if (!printed || !out)
+    throw IoError({"cannot write the STEP file", path.string(), "", "check the free space"});
+}
+
+}  // namespace
+
+void write_step(const TopoDS_Shape& shape, const std::filesystem::path& path, const FileLabels& labels,
+                LengthUnit unit, StepSchema schema) {
+  ExchangeSession session;
+  // All settings before the writer is made: one that was made earlier labels the new unit on old numbers.
+  session.set("xstep.cascade.unit", "MM");
+  session.set("write.step.unit", unit_name(unit));
+  session.set("write.step.schema", schema_name(schema));
+  session.set("write.step.product.name", labels.product);
+  session.set("write.surfacecurve.mode", 1);
+  session.set("write.step.assembly", 0);
+  session.set("write.precision.mode", 0);
+  guarded("write the STEP file", path.string(), [&] {
+    STEPControl_Writer writer;
+    if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone)
+      throw CadError({"the shape does not go into STEP", path.string(), "OpenCASCADE's transfer failed",
+                      "export the open surface"});
+    const Handle(StepData_StepModel) model = writer.Model();
+    label_entities(model, labels);
+    label_header(model, labels);
+    print(writer, model, path);
+  });
+}
+
+TopoDS_Shape read_step(const std::filesystem::path& path) {
+  ExchangeSession session;
+  session.set("xstep.cascade.unit", "MM");
+  return guarded("read the STEP file", path.string(), [&] {
+    STEPControl_Reader reader;
+    // Any other status, and no roots at all, must not reach TransferRoots: it crashes there.
+    if (reader.ReadFile(path.c_str()) != IFSelect_RetDone || reader.NbRootsForTransfer() < 1)
+      throw CadError({"this is no STEP file with geometry", path.string(), "", "check the file"});
+    reader.TransferRoots();
+    const TopoDS_Shape shape = reader.OneShape();
+    if (shape.IsNull()) throw CadError({"the STEP file holds no shape", path.string(), "", "check the file"});
+    return shape;
+  });
+}
+
+}  // namespace catoptric::cad::detail
