@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "report/figures.h"
+#include "report/plot_script.h"
+
+namespace catoptric::report {
+namespace {
+
+/// A logarithmic axis has no place for numbers that are not above 0.
+std::vector<double> on_scale(std::vector<double> values, AxisScale scale) {
+  if (scale == AxisScale::logarithmic)
+    for (double& value : values)
+      if (!(value > 0)) value = std::numeric_limits<double>::quiet_NaN();
+  return values;
+}
+
+std::string labels(std::string_view x, std::string_view y) {
+  return fmt::format("set xlabel {}\nset ylabel {}\n", quoted(x), quoted(y));
+}
+
+std::string log_axis(char axis, AxisScale scale) {
+  return scale == AxisScale::linear ? "" : fmt::format("set logscale {0} 10\nset m{0}tics 10\n", axis);
+}
+
+void add_band(const RadialCurve& curve, std::size_t index, std::string& script,
+              std::vector<std::string>& parts) {
+  if (curve.half_band.empty()) return;
+  script += data_block(fmt::format("band{}", index), {&curve.r, &curve.irradiance, &curve.half_band});
+  parts.push_back(
+      fmt::format("$band{} using 1:($2-$3):($2+$3) with filledcurves fc rgb '{}' fs transparent solid 0.22 "
+                  "noborder notitle",
+                  index, line_colour(curve.role, index)));
+}
+
+}  // namespace
+
+std::string radial_cut_script(const RadialCutFigure& figure) {
+  std::string script =
+      preamble(figure.title) + labels(axis_label("distance from the axis", figure.length_unit),
+                                      axis_label("irradiance", figure.irradiance_unit));
+  script += "set yrange [0:*]\nset autoscale xfix\nset key top right spacing 1.1\n";
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < figure.curves.size(); ++i) add_band(figure.curves[i], i, script, parts);
+  for (std::size_t i = 0; i < figure.curves.size(); ++i) {
+    const RadialCurve& curve = figure.curves[i];
+    script += data_block(fmt::format("curve{}", i), {&curve.r, &curve.irradiance});
+    parts.push_back(fmt::format("$curve{} using 1:2 with lines {} title {}", i, line_look(curve.role, i),
+                                quoted(curve.label)));
+  }
+  return script + plot_command("plot", parts);
+}
+
+std::string convergence_script(const ConvergenceFigure& figure) {
+  std::string script = preamble(figure.title) + labels(figure.effort_label, figure.objective_label);
+  script += log_axis('y', figure.scale) + "set key top right spacing 1.1\nset xrange [0:*]\n";
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < figure.curves.size(); ++i) {
+    const Curve& curve = figure.curves[i];
+    const std::vector<double> y = on_scale(curve.y, figure.scale);
+    script += data_block(fmt::format("curve{}", i), {&curve.x, &y});
+    // the best value stands until a better one is found
+    parts.push_back(fmt::format("$curve{} using 1:2 with steps {} title {}", i, line_look(curve.role, i),
+                                quoted(curve.label)));
+    parts.push_back(fmt::format("$curve{} using 1:2 with points lc rgb '{}' pt 7 ps 0.5 notitle", i,
+                                line_colour(curve.role, i)));
+  }
+  return script + plot_command("plot", parts);
+}
+
+std::string line_script(const LineFigure& figure) {
+  std::string script = preamble(figure.title) + labels(figure.x_label, figure.y_label);
+  script += log_axis('x', figure.x_scale) + log_axis('y', figure.y_scale) +
+            "set autoscale xfix\nset key top right spacing 1.1\n";
+  if (figure.y_scale == AxisScale::linear) script += "set offsets graph 0, graph 0, graph 0.05, graph 0.02\n";
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < figure.curves.size(); ++i) {
+    const Curve& curve = figure.curves[i];
+    const auto x = on_scale(curve.x, figure.x_scale), y = on_scale(curve.y, figure.y_scale);
+    script += data_block(fmt::format("curve{}", i), {&x, &y});
+    parts.push_back(fmt::format("$curve{} using 1:2 with lines {} title {}", i, line_look(curve.role, i),
+                                quoted(curve.label)));
+  }
+  for (const Mark& mark : figure.marks)
+    script += mark_label(mark, plot_number(mark.x) + "," + plot_number(mark.y));
+  return script + plot_command("plot", parts);
+}
+
+}  // namespace catoptric::report
