@@ -1,1 +1,271 @@
-namespace catoptric::design {}
+#include "design/scene.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/tolerance.h"
+#include "design/scene_defaults.h"
+#include "design/variables.h"
+
+namespace catoptric::design {
+namespace {
+
+Vector3 vector(const Settings& settings, const char* path, double factor = 1.0) {
+  const Numbers v = *settings.numbers(path);
+  return factor * Vector3(v[0], v[1], v[2]);
+}
+
+/// A direction that the user wrote: any length but zero.
+Vector3 direction(const Settings& settings, const char* path) {
+  const Vector3 v = vector(settings, path);
+  if (!(v.norm() > 0)) throw settings.error(path, "has no direction", "its length is zero", "[0, 0, 1]");
+  return v;
+}
+
+sim::Material material(const Settings& settings, const std::string& table) {
+  const sim::Material result{*settings.number(table + ".reflectance"),
+                             *settings.number(table + ".transmittance")};
+  if (result.reflectance + result.transmittance > 1)
+    throw settings.error(
+        table + ".transmittance", "more light leaves than arrives",
+        fmt::format("reflectance {} + transmittance {} is above 1", result.reflectance, result.transmittance),
+        "lower one of them");
+  return result;
+}
+
+Profile profile(const Settings& settings, const std::string& table, double unit_mm) {
+  const Points points = *settings.points(table + ".points");
+  const Numbers weights = *settings.numbers(table + ".weights");
+  if (weights.size() != points.size())
+    throw settings.error(table + ".weights",
+                         fmt::format("{} weights for {} points", weights.size(), points.size()),
+                         "each control point has one weight", "leave the weights out to have them all 1");
+  std::vector<ControlPoint> control;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    control.push_back({points[i][0] * unit_mm, points[i][1] * unit_mm, weights[i]});
+  const int degree = static_cast<int>(*settings.integer(table + ".degree"));
+  const Numbers knots = *settings.numbers(table + ".knots");
+  if (const auto defect = Profile::find_defect(degree, knots, control))
+    throw settings.error(table + ".points", defect->what, defect->why, defect->hint);
+  return Profile(degree, knots, std::move(control));
+}
+
+sim::NearField near_field(const Settings& settings, double unit_mm) {
+  const Vector3 center_mm = vector(settings, "near_field.center", unit_mm);
+  const Vector3 normal = direction(settings, "near_field.normal");
+  std::optional<sim::Material> surface;
+  if (*settings.boolean("near_field.real")) surface = material(settings, "near_field");
+  if (settings.text("near_field.shape") == "disc")
+    return sim::NearField::disc(center_mm, normal, *settings.number("near_field.radius") * unit_mm, surface);
+  const Vector3 along = direction(settings, "near_field.along");
+  if (along.normalized().cross(normal.normalized()).norm() <
+      1e-6)  // rad: no plane direction is left below that
+    throw settings.error("near_field.along", "is parallel to the normal", "it must lie across it",
+                         "[1, 0, 0]");
+  return sim::NearField::rectangle(center_mm, normal, along, *settings.number("near_field.width") * unit_mm,
+                                   *settings.number("near_field.height") * unit_mm, surface);
+}
+
+/// Eq. 12 and 13 hold for a source on the axis and a near field across it.
+void check_paraboloid(const Settings& settings, const SourceSpec& source, const sim::NearField& field) {
+  const bool on_axis = source.position_mm.x() == 0 && source.position_mm.y() == 0;
+  const bool across = std::abs(std::abs(field.normal().z()) - 1) < 1e-12;  // roundings of a unit vector
+  if (!on_axis || !across)
+    throw settings.error("target.kind", "the paraboloid's formulas do not hold here",
+                         "eq. 12 and 13 need the source on the z axis and the near field across it",
+                         "target.kind = \"reflector\" with the paraboloid's control points");
+}
+
+TargetSpec target(const Settings& settings, double unit_mm) {
+  TargetSpec spec{};
+  const std::string kind = *settings.text("target.kind");
+  if (kind == "paraboloid") {
+    spec.kind = TargetKind::paraboloid;
+    spec.focal_length_mm = *settings.number("target.focal_length") * unit_mm;
+    spec.rim_radius_mm = *settings.number("target.rim_radius") * unit_mm;
+  } else if (kind == "reflector") {
+    spec.kind = TargetKind::reflector;
+    spec.reference = profile(settings, "target", unit_mm);
+  } else if (kind == "csv") {
+    spec.kind = TargetKind::csv;
+    spec.file = *settings.text("target.file");
+    spec.column = *settings.text("target.column");
+  }
+  return spec;
+}
+
+ModelSpec model(const Settings& settings, double unit_mm) {
+  ModelSpec spec{};
+  spec.engine = settings.text("model.engine") == "occt" ? Engine::occt : Engine::meridian;
+  spec.photons.photons = static_cast<std::uint64_t>(*settings.integer("model.photons"));
+  spec.photons.sampler =
+      settings.text("model.sampler") == "sobol" ? sim::Sampler::sobol : sim::Sampler::random;
+  spec.photons.seed = static_cast<std::uint64_t>(*settings.integer("seed"));
+  spec.photons.most_interactions = static_cast<int>(*settings.integer("model.interactions"));
+  spec.estimate.kernel = *sim::parse_kernel(*settings.text("model.kernel"));
+  if (const auto n = settings.integer("model.neighbours"))
+    spec.estimate.neighbours = static_cast<std::size_t>(*n);
+  if (const auto r = settings.number("model.kernel_radius")) spec.estimate.kernel_radius_mm = *r * unit_mm;
+  spec.replicates = static_cast<std::uint64_t>(*settings.integer("model.replicates"));
+  return spec;
+}
+
+SearchSpec search(const Settings& settings) {
+  return {*settings.text("search.method"),
+          settings.text("search.metric") == "relative-rmse" ? Metric::relative_rmse : Metric::rmse,
+          *settings.number("search.acceleration"),
+          *settings.number("search.reduction"),
+          *settings.number("search.smallest_step"),
+          static_cast<long>(*settings.integer("search.most_evaluations")),
+          static_cast<long>(*settings.integer("search.most_iterations"))};
+}
+
+/// Decision variables in the order of the design vector, not of the file.
+std::vector<optim::Variable> variables(Settings& settings, const Profile& base, LengthUnit unit) {
+  std::vector<std::string> names = settings.names_under("variables");
+  for (const std::string& name : names)
+    if (!parse_component(name, base.points().size()))
+      throw settings.error(
+          "variables." + name + ".step", "is no variable of this reflector",
+          fmt::format("variables are r0, z0, w0 ... r{0}, z{0}, w{0}", base.points().size() - 1),
+          "count control points from 0");
+  const auto place = [&](const std::string& name) {
+    const Component component = *parse_component(name, base.points().size());
+    return 3 * component.point + std::string_view("rzw").find(component.coordinate);
+  };
+  std::sort(names.begin(), names.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+
+  std::vector<optim::Variable> list;
+  for (const std::string& name : names) {
+    const std::string path = "variables." + name;
+    for (const char* needed : {".step", ".lower", ".upper"})
+      if (!settings.has(path + needed))
+        throw settings.error(path + needed, "is missing", "a variable needs step, lower and upper",
+                             path + needed + " = 1");
+    const Component component = *parse_component(name, base.points().size());
+    if (!settings.has(path + ".start"))
+      settings.set({path + ".start", fmt::format("{}", component_value(base, component, unit)), "default"});
+    optim::Variable variable{name, *settings.number(path + ".start"), *settings.number(path + ".step"),
+                             *settings.number(path + ".lower"), *settings.number(path + ".upper")};
+    if (component.coordinate == 'w' && variable.lower < least_weight)
+      throw settings.error(path + ".lower", fmt::format("{} is no lower bound for a weight", variable.lower),
+                           fmt::format("weights lie between {} and {}", least_weight, greatest_weight),
+                           "0.05");
+    if (component.coordinate == 'w' && variable.upper > greatest_weight)
+      throw settings.error(path + ".upper", fmt::format("{} is no upper bound for a weight", variable.upper),
+                           fmt::format("weights lie between {} and {}", least_weight, greatest_weight), "20");
+    if (!(variable.lower < variable.upper))
+      throw settings.error(path + ".upper", "the bounds leave no room", "lower must be less than upper",
+                           "swap them");
+    if (variable.start < variable.lower || variable.start > variable.upper)
+      throw settings.error(
+          path + ".start",
+          fmt::format("{} lies outside [{}, {}]", variable.start, variable.lower, variable.upper),
+          "a search starts within its bounds", "widen the bounds or move the start");
+    list.push_back(variable);
+  }
+  return list;
+}
+
+std::optional<LandscapeSpec> landscape(const Settings& settings, const Profile& base) {
+  const auto names = settings.texts("landscape.variables");
+  if (!names) {
+    for (const char* key : {"landscape.lower", "landscape.upper", "landscape.steps"})
+      if (settings.has(key))
+        throw settings.error(key, "stands alone", "a landscape needs its variables",
+                             "landscape.variables = [\"w1\", \"r2\"]");
+    return std::nullopt;
+  }
+  if (names->empty() || names->size() > 2 || (names->size() == 2 && names->front() == names->back()))
+    throw settings.error("landscape.variables", fmt::format("{} names", names->size()),
+                         "a landscape has one or two different variables", "[\"w1\", \"r2\"]");
+  LandscapeSpec spec{*names, {}, {}, {}};
+  for (const std::string& name : *names)
+    if (!parse_component(name, base.points().size()))
+      throw settings.error(
+          "landscape.variables", name + " is no variable of this reflector",
+          fmt::format("variables are r0, z0, w0 ... r{0}, z{0}, w{0}", base.points().size() - 1), "");
+  for (const char* key : {"landscape.lower", "landscape.upper", "landscape.steps"})
+    if (!settings.has(key) || settings.numbers(key)->size() != names->size())
+      throw settings.error(key, "does not fit the variables",
+                           fmt::format("{} numbers are needed", names->size()), "");
+  spec.lower = *settings.numbers("landscape.lower");
+  spec.upper = *settings.numbers("landscape.upper");
+  const Numbers counts = *settings.numbers("landscape.steps");
+  for (double count : counts) {
+    if (count != std::floor(count)) throw settings.error("landscape.steps", "is no whole number", "", "41");
+    spec.steps.push_back(static_cast<int>(count));
+  }
+  for (std::size_t i = 0; i < names->size(); ++i)
+    if (!(spec.lower[i] < spec.upper[i]))
+      throw settings.error("landscape.upper", "the bounds leave no room", "lower must be less than upper",
+                           "swap them");
+  return spec;
+}
+
+cad::ExportOptions export_options(const Settings& settings, double unit_mm) {
+  cad::ExportOptions options;
+  options.unit = *parse_length_unit(*settings.text("export.unit"));
+  const std::string schema = *settings.text("export.step_schema");
+  options.schema = schema == "ap203"   ? cad::StepSchema::ap203
+                   : schema == "ap242" ? cad::StepSchema::ap242
+                                       : cad::StepSchema::ap214;
+  options.iges_mode =
+      settings.text("export.iges_mode") == "brep" ? cad::IgesMode::brep : cad::IgesMode::faces;
+  options.product = *settings.text("reflector.name");
+  if (const auto wall = settings.number("reflector.wall")) {
+    options.wall = cad::Wall{*wall * unit_mm, cad::WallSide::outside};
+    if (settings.text("reflector.wall_side") == "inside") options.wall->side = cad::WallSide::inside;
+  }
+  return options;
+}
+
+}  // namespace
+
+std::string_view name(Engine engine) { return engine == Engine::occt ? "occt" : "meridian"; }
+std::string_view name(Metric metric) { return metric == Metric::rmse ? "rmse" : "relative-rmse"; }
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  Settings settings = Settings::read(file, scene_keys());
+  for (const Override& change : overrides) settings.set(change);
+  return make_scene(std::move(settings));
+}
+
+Scene make_scene(Settings settings) {
+  std::vector<std::string> notes = complete(settings);
+  const LengthUnit unit = scene_unit(settings);
+  const double unit_mm = millimetres_per(unit);
+  const SourceSpec source{vector(settings, "source.position", unit_mm), *settings.number("source.power")};
+  Profile base = profile(settings, "reflector", unit_mm);
+  sim::NearField field = near_field(settings, unit_mm);
+  TargetSpec desired = target(settings, unit_mm);
+  if (desired.kind == TargetKind::paraboloid) check_paraboloid(settings, source, field);
+  std::vector<optim::Variable> decision = variables(settings, base, unit);
+  std::optional<LandscapeSpec> drawn = landscape(settings, base);
+  const sim::Material mirror = material(settings, "reflector");
+  Scene scene{.settings = {},
+              .title = *settings.text("title"),
+              .unit = unit,
+              .seed = static_cast<std::uint64_t>(*settings.integer("seed")),
+              .threads = static_cast<int>(*settings.integer("threads")),
+              .source = source,
+              .profile = std::move(base),
+              .profile_notes = std::move(notes),
+              .mirror = mirror,
+              .near_field = std::move(field),
+              .samples = static_cast<std::size_t>(*settings.integer("near_field.samples")),
+              .target = std::move(desired),
+              .model = model(settings, unit_mm),
+              .search = search(settings),
+              .variables = std::move(decision),
+              .landscape = std::move(drawn),
+              .export_options = export_options(settings, unit_mm)};
+  scene.settings = std::move(settings);
+  return scene;
+}
+
+}  // namespace catoptric::design

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/errors.h"
+#include "design/settings.h"
+
+namespace catoptric::cli {
+
+/// What all commands share, as given on the command line.
+struct CommonOptions {
+  std::filesystem::path input;  ///< scene, study or profile file
+  std::vector<std::string> set;
+  std::filesystem::path out;  ///< empty: out/<name of the input>
+  std::optional<int> threads;
+  std::optional<std::int64_t> seed;
+  bool quiet = false;
+
+  /// --set, --seed and --threads as overrides of the scene.  @fails UsageError for a --set without "="
+  std::vector<design::Override> overrides() const;
+  std::filesystem::path out_folder() const;
+};
+
+struct LandscapeOptions {
+  std::vector<std::filesystem::path>
+      paths;  ///< convergence.csv files whose searches are drawn over the contours
+};
+
+struct ProfileOptions {
+  std::optional<std::size_t> index;
+  std::vector<double> axis;  ///< empty, or a point in mm and a direction
+  std::string unit = "mm";
+};
+
+struct ExportCommandOptions {
+  std::vector<std::string> formats;  ///< step, iges, brep, stl, glb; empty: step and iges
+};
+
+ExitCode design_command(const CommonOptions& options);
+ExitCode simulate_command(const CommonOptions& options);
+ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions& more);
+ExitCode study_command(const CommonOptions& options);
+ExitCode profile_command(const CommonOptions& options, const ProfileOptions& more);
+ExitCode export_command(const CommonOptions& options, const ExportCommandOptions& more);
+
+}  // namespace catoptric::cli

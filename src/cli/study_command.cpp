@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+
+#include "base/atomic_file.h"
+#include "cli/commands.h"
+#include "cli/progress_line.h"
+#include "cli/stop_signal.h"
+#include "cli/thread_limit.h"
+#include "report/run_files.h"
+
+namespace catoptric::cli {
+namespace {
+
+/// One run with its files. A run that fails is a row of the table, not the end of the study.
+report::StudyRow run_one(const design::Study& study, const design::StudyRun& run, design::Scene scene,
+                         const std::filesystem::path& folder, const design::RunControl& control) {
+  report::StudyRow row{run, std::move(scene), {}, {}, ""};
+  const ThreadLimit limit(row.scene->threads);
+  try {
+    prepare_output_folder(folder);
+    if (study.designs) {
+      row.designed = design::run_design(*row.scene, control);
+      report::write_design(*row.scene, *row.designed, folder);
+    } else {
+      row.simulated = design::run_simulation(*row.scene, control);
+      report::write_simulation(*row.scene, *row.simulated, folder);
+    }
+  } catch (const IoError&) {
+    throw;
+  } catch (const Error& error) {
+    row.error = error.what();
+  }
+  return row;
+}
+
+ExitCode exit_code(const std::vector<report::StudyRow>& rows, bool interrupted) {
+  if (interrupted) return ExitCode::interrupted;
+  ExitCode code = ExitCode::done;
+  for (const report::StudyRow& row : rows) {
+    if (!row.error.empty()) return ExitCode::geometry_or_exchange;
+    if (row.designed && row.designed->search.ending != optim::Ending::converged) code = ExitCode::unconverged;
+  }
+  return code;
+}
+
+}  // namespace
+
+ExitCode study_command(const CommonOptions& options) {
+  const design::Study list = design::read_study(options.input);
+  std::vector<design::Scene> scenes;  // all are checked before the first one runs
+  for (const design::StudyRun& run : list.runs)
+    scenes.push_back(design::study_scene(run, options.overrides()));
+  const std::filesystem::path out = options.out_folder();
+  prepare_output_folder(out);
+
+  const auto begin = std::chrono::steady_clock::now();
+  ProgressLine line(options.quiet, scenes.front().search.metric == design::Metric::rmse ? "W/m^2" : "");
+  const design::RunControl control{&stop_on_signal(), [&](const design::Progress& p) { line.show(p); }};
+  std::vector<report::StudyRow> rows;
+  for (std::size_t i = 0; i < list.runs.size() && !control.stopped(); ++i) {
+    line.set_prefix(fmt::format("run {} ({} of {})", list.runs[i].name, i + 1, list.runs.size()));
+    rows.push_back(run_one(list, list.runs[i], std::move(scenes[i]), out / list.runs[i].name, control));
+  }
+  line.finish();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const auto files = report::write_study(list, rows, seconds, out);
+  if (!options.quiet) {
+    fmt::print("{}\n{}{:.1f} s in all\n", list.title, report::text_table(report::study_table(rows)), seconds);
+    for (const std::string& note : files.notes) fmt::print("note: {}\n", note);
+    fmt::print("written to {}: {} and a folder per run\n", out.string(), fmt::join(files.names, ", "));
+  }
+  return exit_code(rows, control.stopped());
+}
+
+}  // namespace catoptric::cli

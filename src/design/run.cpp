@@ -1,0 +1,182 @@
+#include "design/run.h"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "design/evaluator.h"
+#include "design/variables.h"
+#include "optim/hooke_jeeves.h"
+
+namespace catoptric::design {
+namespace {
+
+/// All evaluations of one search share this stream; verdicts come from the ones after it.
+constexpr std::uint64_t search_stream = 0;
+constexpr std::uint64_t verdict_stream = 1;
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+std::vector<std::string> names(const std::vector<optim::Variable>& variables) {
+  std::vector<std::string> list;
+  for (const auto& variable : variables) list.push_back(variable.name);
+  return list;
+}
+
+std::vector<double> starts(const std::vector<optim::Variable>& variables) {
+  std::vector<double> list;
+  for (const auto& variable : variables) list.push_back(variable.start);
+  return list;
+}
+
+/// The objective of one design vector on the search's stream; infinity where no mirror can be built.
+double value_at(const Scene& scene, const Target& target, const ProfileFamily& family,
+                std::span<const double> x) {
+  const auto profile = family.at(x);
+  if (!profile) return std::numeric_limits<double>::infinity();
+  const sim::FieldEstimate field = estimate_field(scene, *profile, target.samples, search_stream);
+  return objective(scene, total(field), target.irradiance_w_per_mm2);
+}
+
+/// Share of a pattern search that is done, by the step: it must be halved so many times in all.
+double share_done(const Scene& scene, double step) {
+  const double share = std::log(step) / std::log(scene.search.smallest_step);
+  return std::isfinite(share) ? std::min(1.0, std::max(0.0, share)) : 0.0;
+}
+
+void need_target(const Scene& scene, const char* command) {
+  if (scene.target.kind == TargetKind::none)
+    throw scene.settings.error("target.kind", "there is nothing to aim at",
+                               std::string(command) + " compares the light with a target",
+                               "target.kind = \"paraboloid\", \"reflector\" or \"csv\"");
+}
+
+void need_light(const Scene& scene, const Target& target) {
+  if (scene.search.metric == Metric::relative_rmse && root_mean_square(target.irradiance_w_per_mm2) == 0)
+    throw scene.settings.error("search.metric", "the target is dark everywhere",
+                               "relative-rmse divides by the target's root mean square",
+                               "search.metric = \"rmse\"");
+}
+
+optim::Outcome search(const Scene& scene, const Target& target, const RunControl& control) {
+  const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
+  long evaluations = 0;
+  double best = std::numeric_limits<double>::quiet_NaN(), share = 0;
+  optim::Problem problem{scene.variables, [&](std::span<const double> x) {
+                           const double value = value_at(scene, target, family, x);
+                           ++evaluations;
+                           if (std::isnan(best) || value < best) best = value;
+                           control.tell({"search", share, best, evaluations});
+                           return value;
+                         }};
+  optim::HookeJeevesOptions options;
+  options.acceleration = scene.search.acceleration;
+  options.reduction = scene.search.reduction;
+  options.smallest_step = scene.search.smallest_step;
+  options.most_evaluations = scene.search.most_evaluations;
+  options.most_iterations = scene.search.most_iterations;
+  options.progress = [&](const optim::Iterate& iterate) {
+    share = share_done(scene, iterate.step);
+    return !control.stopped();
+  };
+  return optim::hooke_jeeves(problem, options);
+}
+
+}  // namespace
+
+Profile start_profile(const Scene& scene) {
+  const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
+  const auto profile = family.at(starts(scene.variables));
+  if (!profile)
+    throw scene.settings.error("variables." + scene.variables.front().name + ".start",
+                               "the start values make no mirror",
+                               "the generatrix must stay in the half-plane r >= 0", "move the start values");
+  return *profile;
+}
+
+DesignResult run_design(const Scene& scene, const RunControl& control) {
+  if (scene.variables.empty())
+    throw scene.settings.error("variables", "there is nothing to search",
+                               "design moves at least one variable",
+                               "[variables.w1] with step, lower and upper");
+  need_target(scene, "design");
+  const Profile start = start_profile(scene);
+  const Stopwatch watch;
+  Target target = make_target(scene);
+  need_light(scene, target);
+  optim::Outcome outcome = search(scene, target, control);
+  const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
+  const Profile best = family.at(outcome.best).value_or(start);
+  control.tell({"verify", 1.0, outcome.value, outcome.evaluations});
+  Judgement start_judgement = judge(scene, target, start, verdict_stream);
+  Judgement best_judgement = judge(scene, target, best, verdict_stream);
+  const std::uint64_t photons =
+      scene.model.photons.photons *
+      (static_cast<std::uint64_t>(outcome.evaluations) + 2 * scene.model.replicates);
+  return {std::move(target),
+          outcome,
+          {start, starts(scene.variables), std::move(start_judgement)},
+          {best, outcome.best, std::move(best_judgement)},
+          photons,
+          watch.seconds()};
+}
+
+SimulationResult run_simulation(const Scene& scene, const RunControl& control) {
+  const Stopwatch watch;
+  const Profile profile = start_profile(scene);
+  Target target = make_target(scene);
+  if (!target.irradiance_w_per_mm2.empty()) need_light(scene, target);
+  control.tell({"simulate", 0.0, std::numeric_limits<double>::quiet_NaN(), 0});
+  Judgement judgement = judge(scene, target, profile, verdict_stream);
+  return {std::move(target),
+          {profile, starts(scene.variables), std::move(judgement)},
+          scene.model.photons.photons * scene.model.replicates,
+          watch.seconds()};
+}
+
+Landscape run_landscape(const Scene& scene, const RunControl& control) {
+  need_target(scene, "landscape");
+  if (!scene.landscape)
+    throw scene.settings.error("landscape.variables", "is missing", "landscape needs one or two variables",
+                               "landscape.variables = [\"w1\", \"r2\"] with lower, upper and steps");
+  const Stopwatch watch;
+  const LandscapeSpec& spec = *scene.landscape;
+  Landscape result{spec.variables, {}, {}, 0};
+  for (std::size_t i = 0; i < spec.variables.size(); ++i) {
+    std::vector<double> axis;
+    for (int j = 0; j < spec.steps[i]; ++j)
+      axis.push_back(spec.lower[i] + (spec.upper[i] - spec.lower[i]) * j / (spec.steps[i] - 1));
+    result.axes.push_back(axis);
+  }
+  const Target target = make_target(scene);
+  need_light(scene, target);
+  // Everything that is not drawn stays at its start.
+  const ProfileFamily family(start_profile(scene), spec.variables, scene.unit);
+  const std::vector<double> once{0.0};
+  const std::vector<double>& second = result.axes.size() > 1 ? result.axes[1] : once;
+  const double points = static_cast<double>(result.axes[0].size() * second.size());
+  double best = std::numeric_limits<double>::quiet_NaN();
+  for (double a : result.axes[0])
+    for (double b : second) {
+      if (control.stopped()) throw Error(ExitCode::interrupted, {"interrupted", "", "", ""});
+      std::vector<double> x{a};
+      if (result.axes.size() > 1) x.push_back(b);
+      const double value = value_at(scene, target, family, x);
+      result.objective.push_back(std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN());
+      if (std::isnan(best) || value < best) best = value;
+      control.tell({"landscape", static_cast<double>(result.objective.size()) / points, best,
+                    static_cast<long>(result.objective.size())});
+    }
+  result.seconds = watch.seconds();
+  return result;
+}
+
+}  // namespace catoptric::design

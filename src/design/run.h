@@ -1,0 +1,75 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "design/judge.h"
+#include "design/scene.h"
+#include "design/target.h"
+#include "optim/outcome.h"
+
+namespace catoptric::design {
+
+/// How far a run is, for whoever watches.
+struct Progress {
+  std::string phase;  ///< "search", "verify", ...
+  double share = 0;   ///< done, in [0, 1]; an estimate in a search
+  double best = 0;    ///< best objective so far; NaN when there is none
+  long evaluations = 0;
+};
+
+/// What a caller may do to a run: stop it, and watch it. Both may be left empty.
+struct RunControl {
+  const std::atomic<bool>* stop = nullptr;
+  std::function<void(const Progress&)> watch;
+  bool stopped() const { return stop && stop->load(std::memory_order_relaxed); }
+  void tell(const Progress& progress) const {
+    if (watch) watch(progress);
+  }
+};
+
+/// A mirror with its variables and its verdict.
+struct Judged {
+  Profile profile;
+  std::vector<double> variables;  ///< in the order and units of scene.variables
+  Judgement judgement;
+};
+
+/// What `design` found.
+struct DesignResult {
+  Target target;
+  optim::Outcome search;
+  Judged start, best;
+  std::uint64_t photons = 0;  ///< emitted in all
+  double seconds = 0;
+};
+
+/// Searches the scene's variables and judges start and best on fresh streams.
+/// @fails InputError when there is nothing to search or to aim at
+DesignResult run_design(const Scene& scene, const RunControl& control);
+
+/// What `simulate` found: the scene as it stands, its variables at their start.
+struct SimulationResult {
+  Target target;
+  Judged mirror;
+  std::uint64_t photons = 0;
+  double seconds = 0;
+};
+SimulationResult run_simulation(const Scene& scene, const RunControl& control);
+
+/// The objective over one or two variables, row by row: the second variable runs fastest.
+struct Landscape {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> axes;  ///< values of each variable
+  std::vector<double> objective;          ///< NaN where no mirror can be built
+  double seconds = 0;
+};
+Landscape run_landscape(const Scene& scene, const RunControl& control);
+
+/// The scene's profile with its variables at their start values.
+Profile start_profile(const Scene& scene);
+
+}  // namespace catoptric::design

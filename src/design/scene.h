@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/profile.h"
+#include "base/units.h"
+#include "cad/export.h"
+#include "design/settings.h"
+#include "optim/problem.h"
+#include "sim/near_field.h"
+#include "sim/simulation.h"
+
+namespace catoptric::design {
+
+struct SourceSpec {
+  Vector3 position_mm;
+  double power_w;
+};
+
+enum class TargetKind { none, paraboloid, reflector, csv };
+
+/// Where the desired irradiance comes from.
+struct TargetSpec {
+  TargetKind kind;
+  double focal_length_mm = 0;
+  double rim_radius_mm = 0;
+  std::optional<Profile> reference;
+  std::filesystem::path file;
+  std::string column;
+};
+
+enum class Engine { meridian, occt };
+std::string_view name(Engine engine);
+
+/// How the light is computed.
+struct ModelSpec {
+  Engine engine;
+  sim::PhotonOptions photons;
+  sim::EstimateOptions estimate;
+  std::uint64_t replicates;
+};
+
+enum class Metric { rmse, relative_rmse };
+std::string_view name(Metric metric);
+
+struct SearchSpec {
+  std::string method;
+  Metric metric;
+  double acceleration, reduction, smallest_step;
+  long most_evaluations, most_iterations;
+};
+
+struct LandscapeSpec {
+  std::vector<std::string> variables;
+  std::vector<double> lower, upper;
+  std::vector<int> steps;
+};
+
+/// A scene, checked, in mm, W and rad; variables keep the scene's unit, which is what people read and write.
+struct Scene {
+  Settings settings;  ///< every key with its value, defaults included: what scene.toml holds
+  std::string title;
+  LengthUnit unit;
+  std::uint64_t seed;
+  int threads;
+  SourceSpec source;
+  Profile profile;                         ///< as written, before the variables' start values
+  std::vector<std::string> profile_notes;  ///< where an imported generatrix came from
+  sim::Material mirror;
+  sim::NearField near_field;
+  std::size_t samples;
+  TargetSpec target;
+  ModelSpec model;
+  SearchSpec search;
+  std::vector<optim::Variable> variables;  ///< lengths in the scene's unit
+  std::optional<LandscapeSpec> landscape;
+  cad::ExportOptions export_options;
+
+  double to_scene_unit(double mm) const { return mm / millimetres_per(unit); }
+};
+
+/// Reads a scene file and applies the overrides.
+/// @fails InputError naming file, line, key, rule and remedy; CadError when a profile file cannot be used
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+
+/// A scene from its settings.
+Scene make_scene(Settings settings);
+
+/// The scene as TOML with every default written out; reading it again gives the same scene bit for bit.
+std::string scene_text(const Scene& scene);
+
+}  // namespace catoptric::design

@@ -1,0 +1,207 @@
+#include "design/scene_defaults.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/profile.h"
+#include "cad/profile_import.h"
+
+namespace catoptric::design {
+namespace {
+
+/// The defaults of keys that depend on nothing else, as TOML text.
+struct Default {
+  const char* path;
+  const char* value;
+};
+constexpr Default plain_defaults[] = {
+    {"title", "\"\""},
+    {"unit", "\"mm\""},
+    {"seed", "1"},
+    {"threads", "0"},
+    {"source.kind", "\"point\""},
+    {"source.position", "[0.0, 0.0, 0.0]"},
+    {"reflector.name", "\"reflector\""},
+    {"reflector.reflectance", "1.0"},
+    {"reflector.transmittance", "0.0"},
+    {"near_field.shape", "\"disc\""},
+    {"near_field.center", "[0.0, 0.0, 0.0]"},
+    {"near_field.normal", "[0.0, 0.0, 1.0]"},
+    {"near_field.samples", "512"},
+    {"near_field.real", "false"},
+    {"target.kind", "\"none\""},
+    {"model.rung", "\"auto\""},
+    {"model.engine", "\"auto\""},
+    {"model.photons", "100000"},
+    {"model.kernel", "\"silverman\""},
+    {"model.sampler", "\"sobol\""},
+    {"model.replicates", "8"},
+    {"model.interactions", "1000"},
+    {"search.method", "\"hooke-jeeves\""},
+    {"search.metric", "\"rmse\""},
+    {"search.acceleration", "1.0"},
+    {"search.reduction", "0.5"},
+    {"search.smallest_step", "0.001"},
+    {"search.most_evaluations", "2000"},
+    {"search.most_iterations", "1000"},
+    {"export.unit", "\"mm\""},
+    {"export.step_schema", "\"ap214\""},
+    {"export.iges_mode", "\"faces\""},
+};
+
+void fill(Settings& settings, const std::string& path, const std::string& value) {
+  if (!settings.has(path)) settings.set({path, value, "default"});
+}
+
+std::string list(const std::vector<double>& values) {
+  std::string text = "[";
+  for (double value : values) text += fmt::format("{}{}", text.size() > 1 ? ", " : "", value);
+  return text + "]";
+}
+
+void put(Settings& settings, const std::string& path, const std::vector<double>& values,
+         const std::string& where) {
+  settings.set({path, list(values), where});
+}
+
+/// Control points of an imported profile become the scene's own, in its unit, so that scene.toml needs no
+/// other file.
+std::vector<std::string> resolve_profile_file(Settings& settings) {
+  const auto file = settings.text("reflector.profile");
+  if (!file || file->empty()) return {};
+  for (const char* other : {"reflector.points", "reflector.weights", "reflector.knots", "reflector.degree"})
+    if (settings.has(other))
+      throw settings.error(other, "the reflector is described twice", "a profile file already gives it",
+                           "remove this key or reflector.profile");
+  cad::ImportOptions options;
+  if (const auto index = settings.integer("reflector.profile_index"))
+    options.candidate = static_cast<std::size_t>(*index);
+  if (const auto axis = settings.numbers("reflector.profile_axis")) {
+    const auto& a = *axis;
+    options.axis = cad::Axis{{a[0], a[1], a[2]}, {a[3], a[4], a[5]}};
+  }
+  const cad::ImportedProfile imported = cad::import_profile(settings.folder() / *file, options);
+  const double unit_mm = millimetres_per(scene_unit(settings));
+  std::string points = "[";
+  std::vector<double> weights;
+  for (const ControlPoint& point : imported.profile.points()) {
+    points +=
+        fmt::format("{}[{}, {}]", points.size() > 1 ? ", " : "", point.r_mm / unit_mm, point.z_mm / unit_mm);
+    weights.push_back(point.weight);
+  }
+  const std::string where = settings.where("reflector.profile");
+  settings.set({"reflector.points", points + "]", where});
+  settings.set({"reflector.degree", fmt::format("{}", imported.profile.degree()), where});
+  put(settings, "reflector.weights", weights, where);
+  put(settings, "reflector.knots", imported.profile.knots(), where);
+  for (const char* used : {"reflector.profile", "reflector.profile_index", "reflector.profile_axis"})
+    settings.remove(used);
+  std::vector<std::string> notes{fmt::format("generatrix from {}", *file)};
+  notes.insert(notes.end(), imported.notes.begin(), imported.notes.end());
+  return notes;
+}
+
+/// Degree, weights and knots of a B-spline written under `table`, from its points.
+void complete_spline(Settings& settings, const std::string& table) {
+  const auto points = settings.points(table + ".points");
+  if (!points || points->empty())
+    throw settings.error(table + ".points", "is missing", "a generatrix needs control points",
+                         table + ".points = [[0, 10], [5, 10], [10, 5]]");
+  const std::size_t count = points->size();
+  fill(settings, table + ".degree", fmt::format("{}", std::clamp<std::size_t>(count - 1, 1, 3)));
+  if (!settings.has(table + ".weights")) put(settings, table + ".weights", Numbers(count, 1.0), "default");
+  if (!settings.has(table + ".knots")) {
+    const int degree = static_cast<int>(*settings.integer(table + ".degree"));
+    put(settings, table + ".knots", Profile::uniform_knots(degree, count), "default");
+  }
+}
+
+void complete_near_field(Settings& settings) {
+  const bool disc = settings.text("near_field.shape") == "disc";
+  const std::vector<std::string> needed =
+      disc ? std::vector<std::string>{"near_field.radius"}
+           : std::vector<std::string>{"near_field.width", "near_field.height"};
+  for (const std::string& key : needed)
+    if (!settings.has(key))
+      throw settings.error(key, "is missing", fmt::format("a {} needs it", disc ? "disc" : "rectangle"),
+                           key + " = 10");
+  const std::vector<std::string> unused =
+      disc ? std::vector<std::string>{"near_field.width", "near_field.height"}
+           : std::vector<std::string>{"near_field.radius"};
+  for (const std::string& key : unused)
+    if (settings.has(key))
+      throw settings.error(key, "does not belong to this shape", "it would have no effect", "remove it");
+  if (!disc) {  // any direction across the normal will do
+    const auto n = *settings.numbers("near_field.normal");
+    const bool vertical = std::abs(n[0]) <= 0.9 * std::hypot(n[0], n[1], n[2]);
+    fill(settings, "near_field.along", vertical ? "[1.0, 0.0, 0.0]" : "[0.0, 1.0, 0.0]");
+  }
+  if (*settings.boolean("near_field.real")) {
+    fill(settings, "near_field.reflectance", "0.0");
+    fill(settings, "near_field.transmittance", "0.0");
+  } else {
+    for (const char* key : {"near_field.reflectance", "near_field.transmittance"})
+      if (settings.has(key))
+        throw settings.error(key, "an invisible near field has no material", "it only registers light",
+                             "near_field.real = true");
+  }
+}
+
+void complete_target(Settings& settings) {
+  const std::string kind = *settings.text("target.kind");
+  if (kind == "paraboloid") {
+    const auto a = settings.number("target.focal_length");
+    if (!a)
+      throw settings.error("target.focal_length", "is missing", "a paraboloid needs it",
+                           "target.focal_length = 5");
+    fill(settings, "target.rim_radius", fmt::format("{}", 2 * *a));
+  }
+  if (kind == "reflector") complete_spline(settings, "target");
+  if (kind == "csv") {
+    const auto file = settings.text("target.file");
+    if (!file)
+      throw settings.error("target.file", "is missing", "a csv target needs it",
+                           "target.file = \"target.csv\"");
+    fill(settings, "target.column", "\"irradiance\"");
+    const auto absolute = std::filesystem::absolute(settings.folder() / *file).lexically_normal();
+    settings.set({"target.file", "'" + absolute.string() + "'", settings.where("target.file")});
+  }
+}
+
+void complete_bandwidth(Settings& settings) {
+  if (settings.has("model.neighbours") && settings.has("model.kernel_radius"))
+    throw settings.error("model.neighbours", "two bandwidths are given", "an estimate has one",
+                         "remove model.neighbours or model.kernel_radius");
+  if (settings.has("model.neighbours") || settings.has("model.kernel_radius")) return;
+  const double half_width =
+      settings.text("near_field.shape") == "disc"
+          ? *settings.number("near_field.radius")
+          : 0.5 * std::min(*settings.number("near_field.width"), *settings.number("near_field.height"));
+  fill(settings, "model.kernel_radius", fmt::format("{}", 0.1 * half_width));
+}
+
+}  // namespace
+
+LengthUnit scene_unit(const Settings& settings) {
+  return parse_length_unit(settings.text("unit").value_or("mm")).value_or(LengthUnit::millimetre);
+}
+
+std::vector<std::string> complete(Settings& settings) {
+  for (const Default& each : plain_defaults) fill(settings, each.path, each.value);
+  if (!settings.has("source.power"))
+    throw settings.error("source.power", "is missing", "a source needs its power in W", "source.power = 1.0");
+  std::vector<std::string> notes = resolve_profile_file(settings);
+  complete_spline(settings, "reflector");
+  if (settings.has("reflector.wall"))
+    fill(settings, "reflector.wall_side", "\"outside\"");
+  else if (settings.has("reflector.wall_side"))
+    throw settings.error("reflector.wall_side", "stands alone", "there is no wall", "reflector.wall = 1.0");
+  complete_near_field(settings);
+  complete_target(settings);
+  complete_bandwidth(settings);
+  return notes;
+}
+
+}  // namespace catoptric::design

@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "design/scene.h"
+
+namespace catoptric::design {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out += fmt::format("\\{}", c);
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      out += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+    else
+      out += c;
+  }
+  return out + "\"";
+}
+
+/// Shortest text that reads back as the same double, and as a TOML float.
+std::string number(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+struct ValueText {
+  std::string operator()(const std::string& value) const { return quoted(value); }
+  std::string operator()(std::int64_t value) const { return fmt::format("{}", value); }
+  std::string operator()(double value) const { return number(value); }
+  std::string operator()(bool value) const { return value ? "true" : "false"; }
+  template <typename T>
+  std::string operator()(const std::vector<T>& values) const {
+    std::string text = "[";
+    for (const T& value : values) text += (text.size() > 1 ? ", " : "") + (*this)(value);
+    return text + "]";
+  }
+};
+
+}  // namespace
+
+std::string scene_text(const Scene& scene) {
+  std::string text =
+      "# Every key with the value it had; running this file again gives the same result, bit for bit.\n";
+  std::string open_table;
+  const auto write = [&](const std::string& path, const Setting& setting) {
+    const auto dot = path.rfind('.');
+    const std::string table = dot == std::string::npos ? "" : path.substr(0, dot);
+    if (table != open_table) {
+      text += fmt::format("\n[{}]\n", table);
+      open_table = table;
+    }
+    text += fmt::format("{} = {}\n", path.substr(dot == std::string::npos ? 0 : dot + 1),
+                        std::visit(ValueText{}, setting.value));
+  };
+  for (const Key& key : scene_keys()) {
+    if (key.path.find('*') != std::string_view::npos) continue;
+    if (const auto found = scene.settings.all().find(key.path); found != scene.settings.all().end())
+      write(found->first, found->second);
+  }
+  for (const optim::Variable& variable : scene.variables)
+    for (const char* part : {"start", "step", "lower", "upper"}) {
+      const std::string path = fmt::format("variables.{}.{}", variable.name, part);
+      write(path, scene.settings.all().find(path)->second);
+    }
+  return text;
+}
+
+}  // namespace catoptric::design

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "design/scene.h"
+#include "sim/near_field.h"
+
+namespace catoptric::design {
+
+/// Where irradiance is compared, and what is wanted there.
+struct Target {
+  std::vector<sim::FieldSample> samples;
+  std::vector<double> irradiance_w_per_mm2;  ///< empty when the scene wants nothing
+};
+
+/// Reflected irradiance of a paraboloid with the source in its focus, at a distance from the axis.
+/// @from paper eq. 12; zero beyond the rim, which the paper's formula does not know
+double paraboloid_reflected_w_per_mm2(double power_w, double focal_length_mm, double rim_radius_mm,
+                                      double distance_mm);
+
+/// Irradiance straight from a point source on a plane across the axis.
+/// @from paper eq. 13
+double paraboloid_direct_w_per_mm2(double power_w, double height_mm, double distance_mm);
+
+/// The scene's samples with their desired irradiance.
+/// @fails InputError when a table cannot be read, or a point of it does not lie on the near field
+/// @error a reference reflector's light is simulated with 16 times the scene's photons; it carries a quarter
+/// of the
+///        noise of one evaluation, and the same kernel, so that the kernel's bias cancels in the comparison
+Target make_target(const Scene& scene);
+
+}  // namespace catoptric::design

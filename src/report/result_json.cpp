@@ -1,0 +1,133 @@
+#include "report/result_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/units.h"
+
+namespace catoptric::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json variables_json(const design::Scene& scene, const std::vector<double>& values) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < values.size(); ++i) json[scene.variables[i].name] = values[i];
+  return json;
+}
+
+Json objective_json(const design::Scene& scene, const design::Judgement& judgement) {
+  if (!judgement.has_objective) return nullptr;
+  Json json = {{"metric", std::string(name(scene.search.metric))},
+               {"value", judgement.objective.value},
+               {"unit", scene.search.metric == design::Metric::rmse ? "W/m^2" : "1"},
+               {"noise", judgement.objective.noise},
+               {"bias", judgement.objective.bias},
+               {"kernel_radius", scene.to_scene_unit(judgement.kernel_radius_mm)},
+               {"kernel_radius_unit", std::string(symbol(scene.unit))}};
+  if (scene.model.estimate.neighbours) json["neighbours"] = *scene.model.estimate.neighbours;
+  json["kernel"] = std::string(sim::name(scene.model.estimate.kernel));
+  json["photons"] = judgement.photons;
+  json["replicates"] = judgement.replicates;
+  json["samples"] = judgement.reflected.size();
+  json["field_noise"] = to_w_per_m2(judgement.field_noise_w_per_mm2);
+  json["field_bias"] = to_w_per_m2(judgement.field_bias_w_per_mm2);
+  return json;
+}
+
+Json judged_json(const design::Scene& scene, const design::Judged& judged) {
+  return {{"variables", variables_json(scene, judged.variables)},
+          {"objective", objective_json(scene, judged.judgement)}};
+}
+
+Json energy_json(const design::Scene& scene, const sim::EnergyLedger& energy) {
+  return {{"unit", "W"},
+          {"source", scene.source.power_w},
+          {"towards_mirror", energy.emitted_w},
+          {"missed_mirror", energy.missed_w},
+          {"absorbed", energy.absorbed_w},
+          {"received", energy.received_w},
+          {"escaped", energy.escaped_w},
+          {"cut_off", energy.cut_off_w}};
+}
+
+Json reflector_json(const design::Scene& scene, const Profile& profile) {
+  Json points = Json::array(), weights = Json::array();
+  for (const ControlPoint& point : profile.points()) {
+    points.push_back({scene.to_scene_unit(point.r_mm), scene.to_scene_unit(point.z_mm)});
+    weights.push_back(point.weight);
+  }
+  return {{"degree", profile.degree()},
+          {"knots", profile.knots()},
+          {"points", points},
+          {"weights", weights},
+          {"unit", std::string(symbol(scene.unit))},
+          {"rim_radius", scene.to_scene_unit(profile.at(profile.last_parameter()).r_mm)},
+          {"depth", scene.to_scene_unit(profile.z_max_mm() - profile.z_min_mm())},
+          {"area_mm2", profile.area_mm2()}};
+}
+
+Json run_json(const design::Scene& scene) {
+  return {{"model", "photons"},
+          {"intersector", std::string(name(scene.model.engine))},
+          {"sampler", scene.model.photons.sampler == sim::Sampler::sobol ? "sobol" : "random"},
+          {"seed", scene.seed},
+          {"version", version()}};
+}
+
+}  // namespace
+
+std::string version() { return CATOPTRIC_VERSION " (" CATOPTRIC_COMMIT ")"; }
+
+std::string outcome_word(optim::Ending ending) {
+  switch (ending) {
+    case optim::Ending::converged:
+      return "converged";
+    case optim::Ending::stopped:
+      return "interrupted";
+    default:
+      return "unconverged";
+  }
+}
+
+Json result_json(const design::Scene& scene, const design::DesignResult& result) {
+  const design::Judgement& judgement = result.best.judgement;
+  Json json = {{"title", scene.title},
+               {"command", "design"},
+               {"outcome", outcome_word(result.search.ending)},
+               {"sentence", result.search.sentence},
+               {"unit", std::string(symbol(scene.unit))}};
+  json.update(judged_json(scene, result.best));
+  json["search_value"] = result.search.value;
+  json["start"] = judged_json(scene, result.start);
+  json["counts"] = {{"iterations", result.search.iterations},
+                    {"successes", result.search.successes},
+                    {"evaluations", result.search.evaluations},
+                    {"cache_hits", result.search.cache_hits},
+                    {"photons", result.photons}};
+  json["seconds"] = result.seconds;
+  json.update(run_json(scene));
+  json["energy"] = energy_json(scene, judgement.energy);
+  json["reflector"] = reflector_json(scene, result.best.profile);
+  json["profile_notes"] = scene.profile_notes;
+  return json;
+}
+
+Json result_json(const design::Scene& scene, const design::SimulationResult& result) {
+  Json json = {{"title", scene.title},
+               {"command", "simulate"},
+               {"outcome", "simulated"},
+               {"unit", std::string(symbol(scene.unit))}};
+  json.update(judged_json(scene, result.mirror));
+  json["counts"] = {{"photons", result.photons}};
+  json["seconds"] = result.seconds;
+  json.update(run_json(scene));
+  json["energy"] = energy_json(scene, result.mirror.judgement.energy);
+  json["reflector"] = reflector_json(scene, result.mirror.profile);
+  json["profile_notes"] = scene.profile_notes;
+  return json;
+}
+
+std::string json_text(const Json& value) { return value.dump(2) + "\n"; }
+
+}  // namespace catoptric::report

@@ -1,0 +1,260 @@
+#include "report/run_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "report/figures.h"
+
+namespace catoptric::report {
+namespace {
+
+constexpr int curve_points = 200;  ///< along a drawn generatrix
+constexpr int radial_bins = 40;    ///< along a radial cut
+constexpr int grid_cells = 120;    ///< across an irradiance map
+
+std::string unit_of(const design::Scene& scene) { return std::string(symbol(scene.unit)); }
+
+std::string metric_label(const design::Scene& scene) {
+  return scene.search.metric == design::Metric::rmse ? "RMSE (W/m²)" : "relative RMSE";
+}
+
+std::string variable_label(const design::Scene& scene, const std::string& name) {
+  return name.front() == 'w' ? name : fmt::format("{} ({})", name, unit_of(scene));
+}
+
+GeneratrixCurve generatrix_curve(const design::Scene& scene, const Profile& profile, const std::string& label,
+                                 CurveRole role) {
+  GeneratrixCurve curve{label, role, {}, {}, {}, {}};
+  for (int i = 0; i <= curve_points; ++i) {
+    const double share = static_cast<double>(i) / curve_points;
+    const MeridianPoint p = profile.at(profile.first_parameter() +
+                                       share * (profile.last_parameter() - profile.first_parameter()));
+    curve.r.push_back(scene.to_scene_unit(p.r_mm));
+    curve.z.push_back(scene.to_scene_unit(p.z_mm));
+  }
+  for (const ControlPoint& point : profile.points()) {
+    curve.control_r.push_back(scene.to_scene_unit(point.r_mm));
+    curve.control_z.push_back(scene.to_scene_unit(point.z_mm));
+  }
+  return curve;
+}
+
+/// The mirror that the target was made with, when the scene names one.
+std::optional<Profile> target_profile(const design::Scene& scene) {
+  if (scene.target.kind == design::TargetKind::reflector) return scene.target.reference;
+  if (scene.target.kind != design::TargetKind::paraboloid) return std::nullopt;
+  const double a = scene.target.focal_length_mm, rim = scene.target.rim_radius_mm;
+  const double focus_z = scene.source.position_mm.z();
+  // z = focus + a - r^2 / (4 a) as a quadratic Bezier over [0, rim]; paper eq. 11
+  return Profile::bezier(
+      {{0, focus_z + a, 1}, {rim / 2, focus_z + a, 1}, {rim, focus_z + a - rim * rim / (4 * a), 1}});
+}
+
+GeneratrixFigure generatrix_figure(const design::Scene& scene, std::vector<GeneratrixCurve> curves) {
+  GeneratrixFigure figure{"Generatrix", unit_of(scene), std::move(curves), {}, {}};
+  if (const auto wanted = target_profile(scene))
+    figure.curves.insert(figure.curves.begin(),
+                         generatrix_curve(scene, *wanted, "target", CurveRole::target));
+  const Vector3& source_mm = scene.source.position_mm;
+  figure.source = PlanePoint{scene.to_scene_unit(std::hypot(source_mm.x(), source_mm.y())),
+                             scene.to_scene_unit(source_mm.z())};
+  if (std::abs(scene.near_field.normal().z()) >
+      0.5) {  // a steeper field has no readable section with the meridian
+    const Vector3& center_mm = scene.near_field.center_mm();
+    const double r_mm = std::hypot(center_mm.x(), center_mm.y());
+    figure.near_field = {
+        {scene.to_scene_unit(std::max(0.0, r_mm - scene.near_field.half_width_mm())),
+         scene.to_scene_unit(center_mm.z())},
+        {scene.to_scene_unit(r_mm + scene.near_field.half_width_mm()), scene.to_scene_unit(center_mm.z())}};
+  }
+  return figure;
+}
+
+/// Irradiance in W/m^2 at the samples, by plane coordinates in the scene's unit.
+ScatteredField scattered(const design::Scene& scene, const design::Target& target,
+                         const std::vector<double>& w_per_mm2) {
+  ScatteredField field;
+  for (std::size_t i = 0; i < target.samples.size(); ++i) {
+    const Vector2 plane_mm = scene.near_field.to_plane(target.samples[i].point_mm);
+    field.x.push_back(scene.to_scene_unit(plane_mm.x()));
+    field.y.push_back(scene.to_scene_unit(plane_mm.y()));
+    field.value.push_back(to_w_per_m2(w_per_mm2[i]));
+  }
+  return field;
+}
+
+std::vector<double> total(const design::Judgement& judgement) {
+  std::vector<double> sum(judgement.direct);
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += judgement.reflected[i];
+  return sum;
+}
+
+/// Maps that share one colour scale.
+struct FieldView {
+  std::string name, title;
+  std::vector<double> w_per_mm2;
+};
+
+std::vector<NamedFigure> irradiance_figures(const design::Scene& scene, const design::Target& target,
+                                            const std::vector<FieldView>& views) {
+  if (target.samples.size() < 3) return {};
+  double greatest = 0;
+  for (const FieldView& view : views)
+    for (double value : view.w_per_mm2) greatest = std::max(greatest, to_w_per_m2(value));
+  std::optional<double> disc;
+  if (scene.near_field.shape() == sim::NearField::Shape::disc && scene.target.kind != design::TargetKind::csv)
+    disc = scene.to_scene_unit(scene.near_field.half_width_mm());
+  std::vector<NamedFigure> figures;
+  for (const FieldView& view : views) {
+    IrradianceFigure figure{view.title, unit_of(scene),
+                            "W/m²",     gridded(scattered(scene, target, view.w_per_mm2), grid_cells, disc),
+                            0.0,        {},
+                            disc};
+    if (greatest > 0) figure.greatest = greatest;
+    figures.push_back({"irradiance-" + view.name, view.title, irradiance_map_script(figure)});
+    figures.push_back({"surface-" + view.name, view.title, irradiance_surface_script(figure)});
+  }
+  return figures;
+}
+
+/// Means over rings of equal width about the near field's centre.
+RadialCurve ring_means(const design::Scene& scene, const design::Target& target,
+                       const std::vector<double>& w_per_mm2, const std::vector<double>& half_band_w_per_mm2,
+                       const std::string& label, CurveRole role) {
+  double reach_mm = 0;
+  std::vector<double> distance_mm;
+  for (const auto& sample : target.samples) {
+    distance_mm.push_back(scene.near_field.to_plane(sample.point_mm).norm());
+    reach_mm = std::max(reach_mm, distance_mm.back());
+  }
+  std::vector<double> sum(radial_bins), radius(radial_bins), variance(radial_bins);
+  std::vector<int> count(radial_bins);
+  for (std::size_t i = 0; i < distance_mm.size(); ++i) {
+    const auto bin = std::min<std::size_t>(
+        radial_bins - 1, static_cast<std::size_t>(distance_mm[i] / (reach_mm * (1 + 1e-12)) *
+                                                  radial_bins));  // the outermost sample stays inside
+    sum[bin] += w_per_mm2[i];
+    radius[bin] += distance_mm[i];
+    if (!half_band_w_per_mm2.empty()) variance[bin] += half_band_w_per_mm2[i] * half_band_w_per_mm2[i];
+    ++count[bin];
+  }
+  RadialCurve curve{label, {}, {}, {}, role};
+  for (std::size_t bin = 0; bin < radial_bins; ++bin) {
+    if (count[bin] == 0) continue;
+    curve.r.push_back(scene.to_scene_unit(radius[bin] / count[bin]));
+    curve.irradiance.push_back(to_w_per_m2(sum[bin] / count[bin]));
+    // neighbouring samples share photons, so the band is that of one sample, not of the ring's mean
+    if (!half_band_w_per_mm2.empty())
+      curve.half_band.push_back(to_w_per_m2(2 * std::sqrt(variance[bin] / count[bin])));
+  }
+  return curve;
+}
+
+NamedFigure radial_figure(const design::Scene& scene, const design::Target& target,
+                          const design::Judgement& judgement) {
+  RadialCutFigure figure{"Irradiance by distance from the near field's centre (band: 2 sigma of a sample)",
+                         unit_of(scene),
+                         "W/m²",
+                         {}};
+  if (judgement.has_objective)
+    figure.curves.push_back(
+        ring_means(scene, target, target.irradiance_w_per_mm2, {}, "target", CurveRole::target));
+  figure.curves.push_back(ring_means(scene, target, judgement.direct, {}, "direct", CurveRole::direct));
+  figure.curves.push_back(
+      ring_means(scene, target, judgement.reflected, {}, "reflected", CurveRole::reflected));
+  figure.curves.push_back(
+      ring_means(scene, target, total(judgement), judgement.noise, "total", CurveRole::obtained));
+  return {"radial", "Irradiance by distance from the centre", radial_cut_script(figure)};
+}
+
+NamedFigure convergence_figure(const design::Scene& scene, const optim::Outcome& outcome) {
+  Curve curve{"best so far", {}, {}, CurveRole::obtained};
+  for (const optim::Iterate& each : outcome.history) {
+    curve.x.push_back(static_cast<double>(each.evaluations));
+    curve.y.push_back(each.value);
+  }
+  return {"convergence", "Convergence of the search",
+          convergence_script({"Convergence", metric_label(scene), {curve}})};
+}
+
+}  // namespace
+
+std::vector<NamedFigure> design_figures(const design::Scene& scene, const design::DesignResult& result) {
+  std::vector<NamedFigure> figures{
+      {"generatrix", "Generatrix before and after",
+       generatrix_script(generatrix_figure(
+           scene, {generatrix_curve(scene, result.start.profile, "start", CurveRole::initial),
+                   generatrix_curve(scene, result.best.profile, "result", CurveRole::obtained)}))}};
+  figures.push_back(radial_figure(scene, result.target, result.best.judgement));
+  figures.push_back(convergence_figure(scene, result.search));
+  for (NamedFigure& figure :
+       irradiance_figures(scene, result.target,
+                          {{"result", "Irradiance of the result", total(result.best.judgement)},
+                           {"target", "Target irradiance", result.target.irradiance_w_per_mm2},
+                           {"start", "Irradiance of the start", total(result.start.judgement)}}))
+    figures.push_back(std::move(figure));
+  return figures;
+}
+
+std::vector<NamedFigure> simulation_figures(const design::Scene& scene,
+                                            const design::SimulationResult& result) {
+  std::vector<NamedFigure> figures{
+      {"generatrix", "Generatrix",
+       generatrix_script(generatrix_figure(
+           scene, {generatrix_curve(scene, result.mirror.profile, "mirror", CurveRole::obtained)}))}};
+  figures.push_back(radial_figure(scene, result.target, result.mirror.judgement));
+  std::vector<FieldView> views{{"result", "Irradiance", total(result.mirror.judgement)}};
+  if (result.mirror.judgement.has_objective)
+    views.push_back({"target", "Target irradiance", result.target.irradiance_w_per_mm2});
+  for (NamedFigure& figure : irradiance_figures(scene, result.target, views))
+    figures.push_back(std::move(figure));
+  return figures;
+}
+
+std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const design::Landscape& landscape,
+                                           const std::vector<SearchPath>& paths) {
+  const std::string x_label = variable_label(scene, landscape.names[0]);
+  if (landscape.axes.size() == 1) {
+    LineFigure figure{"Objective",
+                      x_label,
+                      metric_label(scene),
+                      {{"objective", landscape.axes[0], landscape.objective, CurveRole::obtained}},
+                      {}};
+    return {{"landscape", "Objective over one variable", line_script(figure)}};
+  }
+  LandscapeFigure figure{"Objective",
+                         x_label,
+                         variable_label(scene, landscape.names[1]),
+                         metric_label(scene),
+                         {landscape.axes[0], landscape.axes[1], {}},
+                         {},
+                         {},
+                         {}};
+  for (std::size_t j = 0; j < landscape.axes[1].size(); ++j)
+    for (std::size_t i = 0; i < landscape.axes[0].size(); ++i)
+      figure.objective.value.push_back(landscape.objective[i * landscape.axes[1].size() + j]);
+  for (const SearchPath& path : paths) {
+    Curve curve{path.label, {}, {}};
+    for (const auto& point : path.points) {
+      curve.x.push_back(point[0]);
+      curve.y.push_back(point[1]);
+    }
+    if (curve.x.empty()) continue;
+    figure.marks.push_back({"", curve.x.front(), curve.y.front(), MarkKind::start});
+    figure.marks.push_back({"", curve.x.back(), curve.y.back(), MarkKind::end});
+    figure.paths.push_back(std::move(curve));
+  }
+  std::vector<NamedFigure> figures{
+      {"contours", "Objective over two variables", landscape_contour_script(figure)}};
+  figure.paths.clear();
+  const SurfaceView views[] = {{55, 35}, {55, 125}, {70, 260}};
+  for (std::size_t i = 0; i < 3; ++i)
+    figures.push_back({fmt::format("surface-{}", i + 1), "The same as a surface",
+                       landscape_surface_script(figure, views[i])});
+  return figures;
+}
+
+}  // namespace catoptric::report

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "design/run.h"
+#include "report/run_tables.h"
+
+namespace catoptric::report {
+
+/// What was written into a run's folder, and what could not be.
+struct WrittenFiles {
+  std::vector<std::string> names;
+  std::vector<std::string> notes;  ///< e.g. that plots were left out since gnuplot is missing
+};
+
+/// `result.json`, `irradiance.csv`, `convergence.csv`, `reflector.step`, `reflector.igs`, `scene.toml`,
+/// `report.html` and the plots. Each file is written whole or not at all.
+/// @fails CadError when an exchange file lost something, IoError
+WrittenFiles write_design(const design::Scene& scene, const design::DesignResult& result,
+                          const std::filesystem::path& folder);
+
+/// The same of a scene as it stands, without search and exchange files.
+WrittenFiles write_simulation(const design::Scene& scene, const design::SimulationResult& result,
+                              const std::filesystem::path& folder);
+
+/// A search path to draw over a landscape's contours.
+struct SearchPath {
+  std::string label;
+  std::vector<std::vector<double>> points;  ///< in the landscape's variables
+};
+
+/// `landscape.csv`, contour and surface plots.
+WrittenFiles write_landscape(const design::Scene& scene, const design::Landscape& landscape,
+                             const std::vector<SearchPath>& paths, const std::filesystem::path& folder);
+
+/// `study.json` (a list of results), `study.csv`, `report.html`.
+WrittenFiles write_study(const design::Study& study, const std::vector<StudyRow>& rows, double seconds,
+                         const std::filesystem::path& folder);
+
+}  // namespace catoptric::report

@@ -1,0 +1,217 @@
+#include "report/run_tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "report/result_json.h"
+
+namespace catoptric::report {
+namespace {
+
+std::string objective_unit(const design::Scene& scene) {
+  return scene.search.metric == design::Metric::rmse ? "W/m^2" : "";
+}
+
+std::string variable_unit(const design::Scene& scene, const std::string& name) {
+  return name.front() == 'w' ? "" : std::string(symbol(scene.unit));
+}
+
+/// A named figure of a run, for the study's table; nothing when the run has no such figure.
+Cell figure(const StudyRow& row, const std::string& name) {
+  if (!row.designed && !row.simulated) return {};
+  const design::Judged& judged = row.designed ? row.designed->best : row.simulated->mirror;
+  const design::Figure& objective = judged.judgement.objective;
+  const auto& variables = row.scene->variables;
+  const auto found =
+      std::find_if(variables.begin(), variables.end(), [&](const auto& v) { return v.name == name; });
+  if (found != variables.end()) return judged.variables[static_cast<std::size_t>(found - variables.begin())];
+  if (judged.judgement.has_objective) {
+    if (name == "rmse" || name == "objective") return objective.value;
+    if (name == "noise") return objective.noise;
+    if (name == "bias") return objective.bias;
+  }
+  if (name == "photons") return static_cast<long long>(judged.judgement.photons);
+  if (name == "kernel_radius") return row.scene->to_scene_unit(judged.judgement.kernel_radius_mm);
+  if (name == "seconds") return row.designed ? row.designed->seconds : row.simulated->seconds;
+  if (!row.designed) return {};
+  if (name == "k") return static_cast<long long>(row.designed->search.successes);
+  if (name == "iterations") return static_cast<long long>(row.designed->search.iterations);
+  if (name == "evaluations") return static_cast<long long>(row.designed->search.evaluations);
+  return {};
+}
+
+Cell reference(const StudyRow& row, const std::string& name) {
+  for (const auto& [key, value] : row.run.reference)
+    if (key == name) return value;
+  return {};
+}
+
+bool add_once(std::vector<std::string>& list, const std::string& name) {
+  if (std::find(list.begin(), list.end(), name) != list.end()) return false;
+  list.push_back(name);
+  return true;
+}
+
+}  // namespace
+
+Table irradiance_table(const design::Scene& scene, const design::Target& target,
+                       const design::Judgement& judgement) {
+  const std::string length(symbol(scene.unit)), irradiance = "W/m^2";
+  Table table{{{"x", length},
+               {"y", length},
+               {"z", length},
+               {"target", irradiance},
+               {"direct", irradiance},
+               {"reflected", irradiance},
+               {"total", irradiance},
+               {"noise", irradiance}},
+              {}};
+  for (std::size_t i = 0; i < target.samples.size(); ++i) {
+    const Vector3& point_mm = target.samples[i].point_mm;
+    table.rows.push_back(
+        {scene.to_scene_unit(point_mm.x()), scene.to_scene_unit(point_mm.y()),
+         scene.to_scene_unit(point_mm.z()),
+         judgement.has_objective ? Cell{to_w_per_m2(target.irradiance_w_per_mm2[i])} : Cell{},
+         to_w_per_m2(judgement.direct[i]), to_w_per_m2(judgement.reflected[i]),
+         to_w_per_m2(judgement.direct[i] + judgement.reflected[i]), to_w_per_m2(judgement.noise[i])});
+  }
+  return table;
+}
+
+Table generatrix_table(const design::Scene& scene,
+                       const std::vector<std::pair<std::string, Profile>>& curves) {
+  const std::string length(symbol(scene.unit));
+  Table table{{{"curve", ""}, {"parameter", ""}, {"r", length}, {"z", length}}, {}};
+  constexpr int intervals = 200;
+  for (const auto& [label, profile] : curves)
+    for (int i = 0; i <= intervals; ++i) {
+      const double share = static_cast<double>(i) / intervals;
+      const double u = (1 - share) * profile.first_parameter() + share * profile.last_parameter();
+      const MeridianPoint point = profile.at(u);
+      table.rows.push_back({label, u, scene.to_scene_unit(point.r_mm), scene.to_scene_unit(point.z_mm)});
+    }
+  return table;
+}
+
+Table convergence_table(const design::Scene& scene, const optim::Outcome& outcome) {
+  Table table{{{"k", ""},
+               {"iteration", ""},
+               {"evaluations", ""},
+               {"step", ""},
+               {"move", ""},
+               {"value", objective_unit(scene)}},
+              {}};
+  for (const auto& variable : scene.variables)
+    table.columns.push_back({variable.name, variable_unit(scene, variable.name)});
+  for (const optim::Iterate& each : outcome.history) {
+    std::vector<Cell> row{static_cast<long long>(each.k),
+                          static_cast<long long>(each.iteration),
+                          static_cast<long long>(each.evaluations),
+                          each.step,
+                          each.move,
+                          each.value};
+    for (double x : each.x) row.emplace_back(x);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table landscape_table(const design::Scene& scene, const design::Landscape& landscape) {
+  Table table;
+  for (const std::string& name : landscape.names) table.columns.push_back({name, variable_unit(scene, name)});
+  table.columns.push_back({"value", objective_unit(scene)});
+  std::size_t next = 0;
+  for (double a : landscape.axes[0]) {
+    if (landscape.axes.size() == 1) {
+      table.rows.push_back({a, landscape.objective[next++]});
+      continue;
+    }
+    for (double b : landscape.axes[1]) table.rows.push_back({a, b, landscape.objective[next++]});
+  }
+  return table;
+}
+
+Table summary_table(const design::Scene& scene, const design::DesignResult& result) {
+  Table table{{{"figure", ""}, {"unit", ""}, {"start", ""}, {"result", ""}}, {}};
+  for (std::size_t i = 0; i < scene.variables.size(); ++i)
+    table.rows.push_back({scene.variables[i].name, variable_unit(scene, scene.variables[i].name),
+                          result.start.variables[i], result.best.variables[i]});
+  const design::Figure &before = result.start.judgement.objective, &after = result.best.judgement.objective;
+  const std::string metric(name(scene.search.metric)), unit = objective_unit(scene);
+  table.rows.push_back({metric, unit, before.value, after.value});
+  table.rows.push_back({"  its noise (1 sigma)", unit, before.noise, after.noise});
+  table.rows.push_back({"  its bias", unit, before.bias, after.bias});
+  table.rows.push_back({"kernel radius, mean", std::string(symbol(scene.unit)),
+                        scene.to_scene_unit(result.start.judgement.kernel_radius_mm),
+                        scene.to_scene_unit(result.best.judgement.kernel_radius_mm)});
+  return table;
+}
+
+Table simulation_table(const design::Scene& scene, const design::SimulationResult& result) {
+  const design::Judgement& judgement = result.mirror.judgement;
+  Table table{{{"figure", ""}, {"unit", ""}, {"value", ""}}, {}};
+  for (std::size_t i = 0; i < scene.variables.size(); ++i)
+    table.rows.push_back(
+        {scene.variables[i].name, variable_unit(scene, scene.variables[i].name), result.mirror.variables[i]});
+  if (judgement.has_objective) {
+    const std::string metric(name(scene.search.metric)), unit = objective_unit(scene);
+    table.rows.push_back({metric, unit, judgement.objective.value});
+    table.rows.push_back({"  its noise (1 sigma)", unit, judgement.objective.noise});
+    table.rows.push_back({"  its bias", unit, judgement.objective.bias});
+  }
+  table.rows.push_back({"kernel radius, mean", std::string(symbol(scene.unit)),
+                        scene.to_scene_unit(judgement.kernel_radius_mm)});
+  table.rows.push_back(
+      {"noise of one evaluation, rms", "W/m^2", to_w_per_m2(judgement.field_noise_w_per_mm2)});
+  table.rows.push_back(
+      {"kernel bias of the field, rms", "W/m^2", to_w_per_m2(judgement.field_bias_w_per_mm2)});
+  table.rows.push_back({"source", "W", scene.source.power_w});
+  table.rows.push_back({"emitted towards the mirror", "W", judgement.energy.emitted_w});
+  table.rows.push_back({"  missed it", "W", judgement.energy.missed_w});
+  table.rows.push_back({"  absorbed by it", "W", judgement.energy.absorbed_w});
+  table.rows.push_back({"  received by the near field", "W", judgement.energy.received_w});
+  table.rows.push_back({"  escaped past the near field", "W", judgement.energy.escaped_w});
+  return table;
+}
+
+Table study_table(const std::vector<StudyRow>& rows) {
+  std::vector<std::string> names, references;
+  for (const StudyRow& row : rows) {
+    if (row.scene)
+      for (const auto& variable : row.scene->variables) add_once(names, variable.name);
+    for (const auto& [key, value] : row.run.reference) add_once(references, key);
+  }
+  for (const char* figure_name :
+       {"rmse", "noise", "bias", "kernel_radius", "photons", "k", "iterations", "evaluations", "seconds"})
+    add_once(names, figure_name);
+  Table table{{{"run", ""}, {"outcome", ""}}, {}};
+  const design::Scene* first = nullptr;
+  for (const StudyRow& row : rows)
+    if (!first && row.scene) first = &*row.scene;
+  for (const std::string& name : names) {
+    std::string unit;
+    if (first && (name == "rmse" || name == "noise" || name == "bias")) unit = objective_unit(*first);
+    if (first && (name == "kernel_radius" || name[0] == 'r' || name[0] == 'z') && name != "rmse")
+      unit = std::string(symbol(first->unit));
+    if (name == "seconds") unit = "s";
+    table.columns.push_back({name, unit});
+    if (std::find(references.begin(), references.end(), name) != references.end())
+      table.columns.push_back({name + " ref", unit});
+  }
+  for (const StudyRow& row : rows) {
+    const std::string outcome = row.designed    ? outcome_word(row.designed->search.ending)
+                                : row.simulated ? "simulated"
+                                                : row.error;
+    std::vector<Cell> cells{row.run.name, outcome};
+    for (const std::string& name : names) {
+      cells.push_back(figure(row, name));
+      if (std::find(references.begin(), references.end(), name) != references.end())
+        cells.push_back(reference(row, name));
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+}  // namespace catoptric::report

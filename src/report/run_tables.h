@@ -1,0 +1,43 @@
+#pragma once
+
+#include "design/run.h"
+#include "design/study.h"
+#include "report/table.h"
+
+namespace catoptric::report {
+
+/// x, y, z in the scene's unit; target, direct, reflected, total, noise in W/m^2. The target is empty without
+/// one.
+Table irradiance_table(const design::Scene& scene, const design::Target& target,
+                       const design::Judgement& judgement);
+
+/// Points along each generatrix: curve, parameter, r, z; 201 of each.
+Table generatrix_table(const design::Scene& scene,
+                       const std::vector<std::pair<std::string, Profile>>& curves);
+
+/// One row per iterate: k, iteration, evaluations, step, move, value and the variables.
+Table convergence_table(const design::Scene& scene, const optim::Outcome& outcome);
+
+/// One row per point: the variables and the objective.
+Table landscape_table(const design::Scene& scene, const design::Landscape& landscape);
+
+/// Start beside result: variables and objective with noise and bias.
+Table summary_table(const design::Scene& scene, const design::DesignResult& result);
+
+/// Figures of a simulated scene: objective with noise and bias, energy.
+Table simulation_table(const design::Scene& scene, const design::SimulationResult& result);
+
+/// One run of a study and what came of it; exactly one of the two results is there, or the error.
+struct StudyRow {
+  design::StudyRun run;
+  std::optional<design::Scene> scene;
+  std::optional<design::DesignResult> designed;
+  std::optional<design::SimulationResult> simulated;
+  std::string error;
+};
+
+/// One row per run: variables, objective with noise and bias, counts, seconds, each reference figure beside
+/// ours.
+Table study_table(const std::vector<StudyRow>& rows);
+
+}  // namespace catoptric::report

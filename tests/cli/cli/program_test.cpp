@@ -1,0 +1,228 @@
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "support/program.h"
+
+using namespace catoptric::test;
+using Catch::Contains;
+using nlohmann::json;
+
+namespace {
+
+const std::string program = CATOPTRIC_PROGRAM;
+const std::string paper = std::string(CATOPTRIC_DATA) + "/paper/";
+
+/// Few photons and a coarse end, so that a whole design takes a second.
+const std::string small =
+    " --set model.photons=4000 --set model.replicates=2 --set near_field.samples=60 --set "
+    "search.smallest_step=0.1";
+
+Ended catoptric(const std::string& arguments) { return run_shell("'" + program + "' " + arguments); }
+
+json parsed(const std::filesystem::path& file) { return json::parse(file_text(file)); }
+
+/// The part of a result that must repeat: all but how long it took.
+json repeatable(const std::filesystem::path& file) {
+  json value = parsed(file);
+  value.erase("seconds");
+  return value;
+}
+
+}  // namespace
+
+TEST_CASE("help and version are no errors, and every command shows an example") {
+  CHECK(catoptric("--help").code == 0);
+  CHECK(catoptric("--version").code == 0);
+  for (const char* command : {"design", "simulate", "landscape", "profile", "export", "study"}) {
+    const Ended help = catoptric(std::string(command) + " --help");
+    INFO(help.output);
+    CHECK(help.code == 0);
+    CHECK_THAT(help.output, Contains("Example: catoptric " + std::string(command)));
+  }
+}
+
+TEST_CASE("a wrong command line ends with 2") {
+  for (const char* arguments :
+       {"", "desing", "design", "design a.toml --no-such-option", "design a.toml --threads x"}) {
+    INFO(arguments);
+    CHECK(catoptric(arguments).code == 2);
+  }
+  const Ended ended = catoptric("design '" + paper + "start_a.toml' --set photons");
+  CHECK(ended.code == 2);
+  CHECK_THAT(ended.output, Contains("key=value"));
+}
+
+TEST_CASE("a broken scene ends with 3, names file, line and key, and leaves no folder") {
+  const ScratchFolder folder;
+  const auto refused = [&](const std::string& text, const std::string& part) {
+    write_text(folder / "scene.toml", text);
+    const Ended ended = catoptric("simulate '" + (folder / "scene.toml").string() + "' --out '" +
+                                  (folder / "out").string() + "'");
+    INFO(text << "\n-> " << ended.output);
+    CHECK(ended.code == 3);
+    CHECK_THAT(ended.output, Contains(part));
+    CHECK_FALSE(std::filesystem::exists(folder / "out"));
+  };
+  refused("seed = \n", "scene.toml:1");
+  refused("\n[modle]\nphotons = 3\n", "scene.toml:3");
+  refused("[source]\npower = -1\n", "source.power");
+  refused("[source]\npower = 1\n", "reflector.points");
+  refused(std::string(200000, '['), "not valid TOML");
+  refused(std::string("title = \"\xff\xfe\"\n"), "not valid TOML");
+  CHECK(catoptric("simulate /nonexistent.toml").code == 3);
+  CHECK(catoptric("simulate '" + folder.path().string() + "'").code == 3);
+}
+
+TEST_CASE("design writes the whole set of files, and the result says what other programs rely on") {
+  const ScratchFolder folder;
+  const std::string out = (folder / "a").string();
+  const Ended ended = catoptric("design '" + paper + "start_a.toml' --out '" + out + "'" + small);
+  INFO(ended.output);
+  REQUIRE(ended.code == 0);
+  for (const char* name : {"result.json", "reflector.step", "reflector.igs", "irradiance.csv",
+                           "convergence.csv", "report.html", "scene.toml"}) {
+    INFO(name);
+    CHECK(std::filesystem::file_size(folder / "a" / name) > 100);
+  }
+  const json result = parsed(folder / "a" / "result.json");
+  CHECK(result["outcome"] == "converged");
+  CHECK(result["variables"]["w1"].is_number());
+  CHECK(result["variables"]["r2"].is_number());
+  for (const char* key : {"metric", "value", "unit", "kernel_radius", "noise", "bias"}) {
+    INFO(key);
+    CHECK(result["objective"].contains(key));
+    CHECK(result["start"]["objective"].contains(key));
+  }
+  CHECK(result["start"]["variables"]["w1"] == 1.6);
+  CHECK(result["objective"]["value"] < result["start"]["objective"]["value"]);
+  for (const char* key : {"iterations", "successes", "evaluations", "photons"})
+    CHECK(result["counts"][key].is_number_unsigned());
+  for (const char* key : {"seconds", "model", "intersector", "seed", "version"}) CHECK(result.contains(key));
+  CHECK_THAT(file_text(folder / "a" / "irradiance.csv"),
+             Catch::StartsWith("x,y,z,target,direct,reflected,total,noise\n"));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
+    CHECK(entry.path().string().find(".partial") == std::string::npos);
+}
+
+TEST_CASE("the written scene gives the same result bit for bit, and threads change nothing") {
+  const ScratchFolder folder;
+  const auto run = [&](const std::string& scene, const std::string& name, const std::string& more) {
+    const Ended ended =
+        catoptric("design '" + scene + "' --quiet --out '" + (folder / name).string() + "' " + more);
+    INFO(ended.output);
+    REQUIRE(ended.code == 0);
+    CHECK(ended.output.empty());
+  };
+  run(paper + "start_a.toml", "one", "--threads 1" + small);
+  run(paper + "start_a.toml", "two", "--threads 2" + small);
+  run(paper + "start_a.toml", "seven", "--threads 7" + small);
+  run((folder / "one" / "scene.toml").string(), "again", "");
+  run(paper + "start_a.toml", "other", "--seed 2" + small);
+  for (const char* name : {"two", "seven", "again"}) {
+    INFO(name);
+    CHECK(repeatable(folder / name / "result.json") == repeatable(folder / "one" / "result.json"));
+    for (const char* file : {"irradiance.csv", "convergence.csv", "reflector.step", "reflector.igs"}) {
+      INFO(file);
+      CHECK(file_text(folder / name / file) == file_text(folder / "one" / file));
+    }
+  }
+  CHECK(file_text(folder / "other" / "irradiance.csv") != file_text(folder / "one" / "irradiance.csv"));
+}
+
+TEST_CASE("a search that runs out of evaluations ends with 5 and writes its files") {
+  const ScratchFolder folder;
+  const Ended ended = catoptric("design '" + paper + "start_a.toml' --set search.most_evaluations=4 --out '" +
+                                (folder / "a").string() + "'" + small);
+  CHECK(ended.code == 5);
+  CHECK(parsed(folder / "a" / "result.json")["outcome"] == "unconverged");
+  CHECK(std::filesystem::exists(folder / "a" / "reflector.step"));
+}
+
+TEST_CASE("an interrupted search ends with 130 and leaves its best so far") {
+  const ScratchFolder folder;
+  const Ended ended =
+      run_shell("timeout --signal=INT --preserve-status 2 '" + program + "' design '" + paper +
+                "start_a.toml' --set model.photons=400000 --set model.replicates=2 --out '" +
+                (folder / "a").string() + "'");
+  INFO(ended.output);
+  CHECK(ended.code == 130);
+  CHECK(parsed(folder / "a" / "result.json")["outcome"] == "interrupted");
+  CHECK(std::filesystem::exists(folder / "a" / "reflector.step"));
+}
+
+TEST_CASE("a folder that cannot be written is found before the work starts") {
+  const Ended ended =
+      catoptric("design '" + paper + "start_a.toml' --set model.photons=100000000 --out /dev/null/out");
+  CHECK(ended.code == 6);
+  CHECK_THAT(ended.output, Contains("/dev/null/out"));
+}
+
+TEST_CASE("simulate, landscape, export and study leave what they promise") {
+  const ScratchFolder folder;
+  const auto run = [&](const std::string& arguments, const std::string& name) {
+    const Ended ended = catoptric(arguments + " --out '" + (folder / name).string() + "'");
+    INFO(arguments << "\n" << ended.output);
+    REQUIRE(ended.code == 0);
+    return ended.output;
+  };
+  run("simulate '" + paper + "paraboloid.toml'" + small, "s");
+  CHECK(parsed(folder / "s" / "result.json")["objective"]["value"].is_number());
+  CHECK(std::filesystem::exists(folder / "s" / "irradiance.csv"));
+
+  run("landscape '" + paper + "start_a.toml' --set landscape.steps=[3,4]" + small, "l");
+  const std::string table = file_text(folder / "l" / "landscape.csv");
+  CHECK(std::count(table.begin(), table.end(), '\n') == 13);
+
+  run("export '" + paper +
+          "paraboloid.toml' --format step --format stl --format glb --format brep --format iges",
+      "e");
+  for (const char* name :
+       {"reflector.step", "reflector.igs", "reflector.stl", "reflector.glb", "reflector.brep"})
+    CHECK(std::filesystem::exists(folder / "e" / name));
+
+  write_text(folder / "study.toml",
+             "scene = '" + paper +
+                 "start_a.toml'\ncommand = \"simulate\"\n[[runs]]\nname = \"a\"\nset = "
+                 "{\"variables.w1.start\" = 1.0}\nreference = {w1 = 1.5}\n[[runs]]\nname = \"b\"\n");
+  const std::string printed = run("study '" + (folder / "study.toml").string() + "'" + small, "st");
+  const json list = parsed(folder / "st" / "study.json");
+  REQUIRE(list.size() == 2);
+  CHECK(list[0]["variables"]["w1"] == 1.0);
+  CHECK(list[0]["reference"]["w1"] == 1.5);
+  CHECK(list[1]["variables"]["w1"] == 1.6);
+  CHECK_THAT(printed, Contains("w1 ref"));
+  CHECK(std::filesystem::exists(folder / "st" / "b" / "irradiance.csv"));
+}
+
+TEST_CASE("an irradiance.csv serves as the target of another scene") {
+  const ScratchFolder folder;
+  REQUIRE(catoptric("simulate '" + paper + "paraboloid.toml' --out '" + (folder / "p").string() + "'" + small)
+              .code == 0);
+  std::string scene = file_text(paper + "start_a.toml");
+  const auto at = scene.find("kind = \"paraboloid\"\nfocal_length = 5");
+  REQUIRE(at != std::string::npos);
+  scene.replace(at, std::string("kind = \"paraboloid\"\nfocal_length = 5").size(),
+                "kind = \"csv\"\nfile = \"p/irradiance.csv\"\ncolumn = \"total\"");
+  write_text(folder / "scene.toml", scene);
+  const Ended ended =
+      catoptric("simulate '" + (folder / "scene.toml").string() +
+                "' --set variables.w1.start=1 --set variables.r2.start=10 --out '" + (folder / "q").string() +
+                "' --set model.replicates=2 --set model.photons=4000");
+  INFO(ended.output);
+  REQUIRE(ended.code == 0);
+  CHECK(parsed(folder / "q" / "result.json")["objective"]["value"] < 0.2);
+  write_text(folder / "scene.toml", scene.replace(scene.find("column = \"total\""), 16, "column = \"lux\""));
+  CHECK_THAT(catoptric("simulate '" + (folder / "scene.toml").string() + "'").output,
+             Contains("its columns are x, y, z, target"));
+}
+
+TEST_CASE("a profile file that is none ends with 4") {
+  const ScratchFolder folder;
+  write_text(folder / "not.igs", "this is no IGES file\n");
+  for (const std::string& name :
+       {(folder / "not.igs").string(), std::string("/nonexistent.igs"), folder.path().string()}) {
+    const Ended ended = catoptric("profile '" + name + "'");
+    INFO(ended.output);
+    CHECK(ended.code == 4);
+  }
+}

@@ -1,0 +1,162 @@
+#include "design/scene.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "design/run.h"
+#include "design/target.h"
+
+using namespace catoptric;
+using namespace catoptric::design;
+
+namespace {
+
+const std::string data = CATOPTRIC_DATA;
+
+/// A small complete scene; `more` is appended, `head` put before the tables.
+std::string text(const std::string& more = "", const std::string& head = "unit = \"cm\"\n") {
+  return head +
+         "[source]\nposition = [0, 0, 5]\npower = 0.0314\n"
+         "[reflector]\npoints = [[0, 10], [5, 10], [10, 5]]\n"
+         "[near_field]\nradius = 5\n" +
+         more;
+}
+
+Scene scene(const std::string& toml) { return make_scene(Settings::parse(toml, "s.toml", scene_keys())); }
+
+void refused(const std::string& toml, const std::string& part) {
+  INFO(toml);
+  CHECK_THROWS_WITH(scene(toml), Catch::Contains(part));
+}
+
+}  // namespace
+
+TEST_CASE("lengths are taken in the scene's unit, everywhere") {
+  const Scene cm =
+      scene(text("[model]\nkernel_radius = 0.5\n[target]\nkind = \"paraboloid\"\nfocal_length = 5\n"));
+  CHECK(cm.source.position_mm == Vector3(0, 0, 50));
+  CHECK(cm.profile.points()[2] == ControlPoint{100, 50, 1});
+  CHECK(cm.profile.degree() == 2);
+  CHECK(cm.near_field.half_width_mm() == 50);
+  CHECK(cm.model.estimate.kernel_radius_mm == 5.0);
+  CHECK(cm.target.focal_length_mm == 50);
+  CHECK(cm.target.rim_radius_mm == 100);
+  const Scene inch = scene(text("", "unit = \"in\"\n"));
+  CHECK(inch.near_field.half_width_mm() == Approx(127).epsilon(1e-15));
+}
+
+TEST_CASE("the paper's scenes are what the paper says") {
+  const Scene a = read_scene(data + "/paper/start_a.toml");
+  CHECK(a.source.power_w == Approx(pi / 100).epsilon(1e-15));
+  REQUIRE(a.variables.size() == 2);
+  CHECK(a.variables[0].name == "w1");
+  CHECK(a.variables[0].start == 1.6);
+  CHECK(a.variables[0].step == 0.5);
+  CHECK(a.variables[1].name == "r2");
+  CHECK(a.variables[1].start == 9);
+  CHECK(a.variables[1].step == 1);
+  const Scene b = read_scene(data + "/paper/start_b.toml"), c = read_scene(data + "/paper/start_c.toml");
+  CHECK(b.variables[0].start == 1.8);
+  CHECK(b.variables[1].start == 7);
+  CHECK(c.variables[0].start == std::sqrt(0.5));
+  CHECK(c.variables[1].start == 5);
+  const Scene p = read_scene(data + "/paper/paraboloid.toml");
+  CHECK(start_profile(p).points() == std::vector<ControlPoint>{{0, 100, 1}, {50, 100, 1}, {100, 50, 1}});
+}
+
+TEST_CASE("the paper's target is 2 W/m^2 at the centre and follows eq. 12 and 13") {
+  const Scene a = read_scene(data + "/paper/start_a.toml");
+  const double power = a.source.power_w;
+  CHECK(to_w_per_m2(paraboloid_reflected_w_per_mm2(power, 50, 100, 0)) == Approx(1).epsilon(1e-14));
+  CHECK(to_w_per_m2(paraboloid_direct_w_per_mm2(power, 50, 0)) == Approx(1).epsilon(1e-14));
+  CHECK(to_w_per_m2(paraboloid_reflected_w_per_mm2(power, 50, 100, 100)) == Approx(0.25).epsilon(1e-14));
+  CHECK(paraboloid_reflected_w_per_mm2(power, 50, 100, 100.001) == 0);
+  CHECK(to_w_per_m2(paraboloid_direct_w_per_mm2(power, 50, 50)) == Approx(std::pow(2, -1.5)).epsilon(1e-14));
+  const Target target = make_target(a);
+  REQUIRE(target.samples.size() == 512);
+  for (std::size_t i = 0; i < target.samples.size(); i += 37) {
+    const double p = std::hypot(target.samples[i].point_mm.x(), target.samples[i].point_mm.y());
+    const double q = p * p / 2500;
+    const double expected = 1 / ((1 + q / 4) * (1 + q / 4)) + std::pow(1 + q, -1.5);
+    CHECK(to_w_per_m2(target.irradiance_w_per_mm2[i]) == Approx(expected).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("a scene written out reads back as the same scene, bit for bit") {
+  for (const char* name : {"/paper/start_a.toml", "/paper/start_c.toml"}) {
+    const Scene first = read_scene(data + name);
+    const std::string written = scene_text(first);
+    const Scene second = make_scene(Settings::parse(written, "scene.toml", scene_keys()));
+    CHECK(scene_text(second) == written);
+    CHECK(first.profile == second.profile);
+    CHECK(first.source.power_w == second.source.power_w);
+    CHECK(first.variables[0].start == second.variables[0].start);
+    CHECK(first.model.estimate.kernel_radius_mm == second.model.estimate.kernel_radius_mm);
+  }
+  const Scene odd = scene(text("", "title = \"a \\\"quoted\\\" \\\\ back\\tslash\"\nunit = \"in\"\n"));
+  const Scene again = make_scene(Settings::parse(scene_text(odd), "s", scene_keys()));
+  CHECK(again.title == odd.title);
+}
+
+TEST_CASE("what a scene leaves out has defaults, and they are written out") {
+  const Scene plain = scene(text());
+  const std::string written = scene_text(plain);
+  CHECK(plain.model.estimate.kernel_radius_mm == 5.0);
+  CHECK(plain.model.photons.photons == 100000);
+  for (const char* key : {"kernel_radius = 0.5", "photons = 100000", "kind = \"none\"",
+                          "weights = [1.0, 1.0, 1.0]", "[export]"}) {
+    INFO(key);
+    CHECK(written.find(key) != std::string::npos);
+  }
+}
+
+TEST_CASE("scenes that contradict themselves are refused with the key and its line") {
+  refused("unit = \"cm\"\n[reflector]\npoints = [[0, 1], [1, 0]]\n[near_field]\nradius = 1\n",
+          "source.power");
+  refused("[source]\npower = 1\n[near_field]\nradius = 1\n", "reflector.points");
+  refused("[source]\npower = 1\n[reflector]\npoints = [[0, 1], [1, 0]]\n", "near_field.radius");
+  refused(text("width = 3\n"), "near_field.width");
+  refused(text("reflectance = 0.5\n"), "invisible");
+  refused(text("normal = [0, 0, 0]\n"), "no direction");
+  refused(text("[model]\nneighbours = 100\nkernel_radius = 1\n"), "two bandwidths");
+  refused(text("[target]\nkind = \"paraboloid\"\n"), "target.focal_length");
+  refused(text("[target]\nkind = \"csv\"\n"), "target.file");
+  refused(text("[target]\nkind = \"reflector\"\n"), "target.points");
+  refused(text("[variables.w1]\nstep = 1\nlower = 0.1\n"), "variables.w1.upper");
+  refused(text("[variables.w1]\nstep = 1\nlower = 3\nupper = 2\n"), "bounds leave no room");
+  refused(text("[variables.w1]\nstep = 1\nlower = 2\nupper = 3\n"), "outside [2, 3]");
+  refused(text("[variables.w1]\nstep = 1\nlower = -1\nupper = 3\n"), "no lower bound for a weight");
+  refused(text("[variables.w9]\nstep = 1\nlower = 0.1\nupper = 3\n"), "no variable of this reflector");
+  refused(text("[landscape]\nvariables = [\"w1\", \"w1\"]\nlower = [1, 1]\nupper = [2, 2]\nsteps = [3, 3]\n"),
+          "two different");
+  refused(text("[landscape]\nvariables = [\"w1\"]\nlower = [1, 1]\nupper = [2]\nsteps = [3]\n"),
+          "landscape.lower");
+  refused(
+      "[source]\npower = 1\n[reflector]\npoints = [[0, 1], [1, 0]]\nweights = [1]\n[near_field]\nradius = "
+      "1\n",
+      "1 weights for 2 points");
+  refused("[source]\npower = 1\n[reflector]\npoints = [[0, 1], [-1, 0]]\n[near_field]\nradius = 1\n",
+          "crosses the axis");
+  refused(
+      "[source]\npower = 1\n[reflector]\npoints = [[0, 1], [1, 0]]\nreflectance = 0.7\ntransmittance = "
+      "0.4\n[near_field]\nradius = 1\n",
+      "more light leaves");
+  refused(
+      "[source]\npower = 1\nposition = [1, 0, 5]\n[reflector]\npoints = [[0, 10], [5, 10], [10, "
+      "5]]\n[near_field]\nradius = 1\n[target]\nkind = \"paraboloid\"\nfocal_length = 5\n",
+      "do not hold");
+  refused(
+      "[source]\npower = 1\n[reflector]\npoints = [[0, 1], [1, 0]]\n[near_field]\nshape = "
+      "\"rectangle\"\nwidth = 1\nheight = 1\nalong = [0, 0, 2]\n",
+      "parallel to the normal");
+}
+
+TEST_CASE("what cannot be searched or aimed at is said before anything runs") {
+  const RunControl control;
+  CHECK_THROWS_WITH(run_design(scene(text()), control), Catch::Contains("nothing to search"));
+  CHECK_THROWS_WITH(run_design(scene(text("[variables.w1]\nstep = 1\nlower = 0.1\nupper = 3\n")), control),
+                    Catch::Contains("nothing to aim at"));
+  CHECK_THROWS_WITH(
+      run_landscape(scene(text("[target]\nkind = \"paraboloid\"\nfocal_length = 5\n")), control),
+      Catch::Contains("landscape.variables"));
+}
