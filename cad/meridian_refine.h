@@ -165,10 +165,9 @@ Root<Real> refine(const Function& function, const Evaluate& at, Real lo, Real hi
 template <typename Real>
 Real distance_along(const AxisLine<Real>& line, Real r, Real z) {
   const Real v = line.h * z + line.level;
-  if (line.dz * line.dz * r >= line.h * absolute(v)) {
-    if (line.dz != 0) return (z - line.oz) / line.dz;
-    return line.h == 0 ? Real(0) : -line.along / line.h;
-  }
+  const Real steepness = absolute(line.dz);
+  if (2 * steepness >= line.h || (steepness > 0 && steepness * steepness * r >= line.h * absolute(v)))
+    return (z - line.oz) / line.dz;
   const Real squared = (r - line.across) * (r + line.across);
   const Real side = squared > 0 ? square_root(squared) : Real(0);
   return (((v < 0) == (line.dz < 0) ? side : -side) - line.along) / line.h;

@@ -77,7 +77,8 @@ class OcctProbe final : public Probe {
 
   std::vector<Hit> all_hits(const Ray& ray, double beyond_mm) override {
     const ModelRay line(ray, model_);
-    if (!(line.origin.squaredNorm() <= model_.reach * model_.reach)) return {};  // also what is no number
+    const bool passes = line.origin.squaredNorm() <= model_.reach * model_.reach;
+    if (!passes || !(line.direction.squaredNorm() > 0)) return {};  // also what is no number
     return detail::guarded("intersect a ray with the mirror", "", [&] {
       std::vector<Hit> hits;
       for (const Crossing& crossing : crossings(line)) {
