@@ -127,12 +127,9 @@ inline QuadricReflector sphere(double center_z_mm, double radius_mm, double z_lo
 inline QuadricReflector cone(double r_low_mm, double z_low_mm, double r_high_mm, double z_high_mm) {
   const double slope = (r_high_mm - r_low_mm) / (z_high_mm - z_low_mm);
   const double at_zero = r_low_mm - slope * z_low_mm;
-  return {at_zero * at_zero,
-          2 * at_zero * slope,
-          slope * slope,
-          z_low_mm,
-          z_high_mm,
-          Profile::bezier({{r_high_mm, z_high_mm, 1}, {r_low_mm, z_low_mm, 1}})};
+  return {at_zero * at_zero, 2 * at_zero * slope,
+          slope * slope,     z_low_mm,
+          z_high_mm,         Profile::bezier({{r_high_mm, z_high_mm, 1}, {r_low_mm, z_low_mm, 1}})};
 }
 
 }  // namespace catoptric::test

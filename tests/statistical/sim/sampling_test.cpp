@@ -1,0 +1,154 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "base/random_stream.h"
+#include "base/units.h"
+#include "sim/emission.h"
+#include "sim/material.h"
+#include "sim/near_field.h"
+#include "sim/projection_map.h"
+#include "sim/scatter.h"
+#include "support/analytic_reflectors.h"
+#include "support/statistics.h"
+
+using namespace catoptric;
+using namespace catoptric::sim;
+
+namespace {
+
+std::size_t bin(double share, std::size_t bins) {
+  return std::min(bins - 1, static_cast<std::size_t>(std::max(0.0, share) * static_cast<double>(bins)));
+}
+
+/// Counts of `draw(stream)` (a bin number) over many streams.
+template <typename Draw>
+std::vector<double> counts_of(std::size_t bins, int draws, const Draw& draw) {
+  std::vector<double> counts(bins, 0);
+  for (int i = 0; i < draws; ++i) {
+    RandomStream stream(5, Purpose::test, static_cast<std::uint64_t>(i));
+    counts[draw(stream)] += 1;
+  }
+  return counts;
+}
+
+/// Cell of the sphere, 16 equal bands times 32 equal azimuths.
+std::size_t sphere_cell(const Vector3& direction) {
+  const double azimuth = std::atan2(direction.y(), direction.x()) / (2 * pi) + 0.5;
+  return 32 * bin(0.5 * (direction.z() + 1), 16) + bin(azimuth, 32);
+}
+
+}  // namespace
+
+TEST_CASE("emission fills the projection map evenly") {
+  const auto profile = test::paraboloid().profile();
+  constexpr int draws = 400'000, finest = 2000;
+  for (const Vector3& source :
+       {Vector3(0, 0, 50), Vector3(0, 0, -100), Vector3(30, 0, 60), Vector3(-300, 40, 75)}) {
+    const auto map = ProjectionMap::towards(profile, source);
+    // expected: the area of the map in each cell, by counting evenly spread directions that belong to it
+    std::vector<double> expected(512, 0);
+    for (int i = 0; i < finest; ++i)
+      for (int j = 0; j < finest; ++j) {
+        const double cosine = (2 * i + 1.0) / finest - 1, azimuth = 2 * pi * (j + 0.5) / finest;
+        const double sine = std::sqrt(1 - cosine * cosine);
+        const Vector3 direction(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine);
+        if (map.contains(direction)) expected[sphere_cell(direction)] += 1;
+      }
+    double inside = 0;
+    for (double each : expected) inside += each;
+    // the counted area is that of the map, to the cells on its border
+    CHECK(4 * pi * inside / finest / finest == Approx(map.solid_angle_sr()).epsilon(0.01));
+
+    const auto run = [&](auto&& direction) {
+      auto counts = counts_of(512, draws, [&](RandomStream& stream) {
+        const double first = stream.uniform(), second = stream.uniform();
+        return sphere_cell(direction(first, second));
+      });
+      // cells too small for the normal law, and those whose border the counting blurs, are joined
+      std::vector<double> got(1, 0), want(1, 0);
+      for (std::size_t i = 0; i < 512; ++i) {
+        const double share = draws * expected[i] / inside;
+        if (expected[i] > 0.999 * finest * finest / 512 * 1.0) {
+          got.push_back(counts[i]);
+          want.push_back(share);
+        } else {
+          got[0] += counts[i];
+          want[0] += share;
+        }
+      }
+      return test::chi_square_p(got, want);
+    };
+    CAPTURE(source.transpose());
+    CHECK(run([&](double a, double b) { return map.direction(a, b); }) > test::level);
+    // wrong twin: even in the angle instead of its cosine
+    CHECK(run([&](double a, double b) { return map.direction(std::sin(0.5 * pi * a), b); }) < test::level);
+  }
+}
+
+TEST_CASE("Russian roulette has the frequencies of the material") {
+  const Material material{0.7, 0.1};
+  const auto counts = counts_of(3, 100'000, [&](RandomStream& stream) {
+    return static_cast<std::size_t>(roulette(material, stream.uniform()));
+  });
+  CHECK(test::chi_square_p(counts, {20'000, 70'000, 10'000}) > test::level);
+  CHECK(test::chi_square_p(counts, {21'000, 69'000, 10'000}) < test::level);
+  CHECK(roulette({1, 0}, 1 - 0x1p-53) == Interaction::reflected);
+  CHECK(roulette({0, 0}, 0) == Interaction::absorbed);
+  CHECK(roulette({0, 1}, 1 - 0x1p-53) == Interaction::transmitted);
+}
+
+TEST_CASE("diffuse reflection follows the cosine law into the normal's side") {
+  const Vector3 normal = Vector3(1, 2, -3).normalized();
+  const Vector3 along = Vector3(2, -1, 0).normalized(), across = normal.cross(along);
+  const auto run = [&](const auto& share_of_cosine) {
+    return test::chi_square_even_p(counts_of(20 * 16, 200'000, [&](RandomStream& stream) {
+      const double first = stream.uniform(), second = stream.uniform();
+      const Vector3 direction = diffuse_direction(along, across, normal, first, second);
+      const double azimuth = std::atan2(direction.dot(across), direction.dot(along)) / (2 * pi) + 0.5;
+      CHECK(direction.dot(normal) > 0);
+      return 16 * bin(share_of_cosine(direction.dot(normal)), 20) + bin(azimuth, 16);
+    }));
+  };
+  CHECK(run([](double cosine) { return cosine * cosine; }) > test::level);
+  CHECK(run([](double cosine) { return cosine; }) < test::level);  // the law of an even hemisphere
+}
+
+TEST_CASE("near-field samples are uniform by area") {
+  // A spiral and a grid are more even than chance, so only too large a chi-square can be wrong.
+  const auto disc = NearField::disc({0, 0, 0}, {0, 0, 1}, 50);
+  const auto ring_counts = [&](const auto& share_of_radius) {
+    std::vector<double> counts(10 * 8, 0);
+    for (const FieldSample& sample : disc.samples(20'000)) {
+      const Vector2 at = disc.to_plane(sample.point_mm);
+      const double azimuth = std::atan2(at.y(), at.x()) / (2 * pi) + 0.5;
+      counts[8 * bin(share_of_radius(at.norm() / 50), 10) + bin(azimuth, 8)] += 1;
+    }
+    return test::chi_square_even_p(counts);
+  };
+  CHECK(ring_counts([](double r) { return r * r; }) > test::level);
+  CHECK(ring_counts([](double r) { return r; }) < test::level);
+  const auto rectangle = NearField::rectangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 300, 100);
+  std::vector<double> counts(15 * 5, 0);
+  for (const FieldSample& sample : rectangle.samples(7500)) {
+    const Vector2 at = rectangle.to_plane(sample.point_mm);
+    counts[5 * bin(at.x() / 300 + 0.5, 15) + bin(at.y() / 100 + 0.5, 5)] += 1;
+  }
+  CHECK(test::chi_square_even_p(counts) > test::level);
+}
+
+TEST_CASE("every scrambled Sobol coordinate is uniform over the keys") {
+  // one point of the sequence under many scramblings: what makes replicates unbiased
+  for (std::uint64_t photon : {0u, 1u, 12345u})
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+      std::vector<double> counts(64, 0), pairs(64, 0);
+      for (std::uint64_t stream = 0; stream < 20'000; ++stream) {
+        const auto numbers = EmissionNumbers::starting_at(Sampler::sobol, photon_key(1, stream), photon);
+        const double first = numbers->next()[axis], second = numbers->next()[axis];
+        counts[bin(first, 64)] += 1;
+        // digits 7 to 9 of one photon and 4 to 6 of the next: independent, too
+        pairs[8 * bin(std::fmod(first * 64, 1.0), 8) + bin(std::fmod(second * 8, 1.0), 8)] += 1;
+      }
+      CHECK(test::chi_square_even_p(counts) > test::level);
+      CHECK(test::chi_square_even_p(pairs) > test::level);
+    }
+}
