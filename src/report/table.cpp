@@ -19,12 +19,6 @@ std::string padded(const std::string& text, std::size_t width, bool to_the_right
   return to_the_right ? blanks + text : text + blanks;
 }
 
-/// A column is set to the right when it holds a number.
-bool holds_numbers(const Table& table, std::size_t column) {
-  return std::any_of(table.rows.begin(), table.rows.end(),
-                     [&](const auto& row) { return is_number(row[column]); });
-}
-
 std::string joined(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
                    const std::vector<bool>& to_the_right) {
   std::string line;
@@ -35,6 +29,11 @@ std::string joined(const std::vector<std::string>& cells, const std::vector<std:
 }
 
 }  // namespace
+
+bool holds_numbers(const Table& table, std::size_t column) {
+  return std::any_of(table.rows.begin(), table.rows.end(),
+                     [&](const auto& row) { return is_number(row[column]); });
+}
 
 std::string readable(const Cell& cell, int digits) {
   if (const auto* number = std::get_if<double>(&cell)) return fmt::format("{:.{}g}", *number, digits);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <variant>
 #include <vector>
@@ -30,6 +31,9 @@ std::string readable(const Cell& cell, int digits);
 
 /// "name [unit]", or the name alone.
 std::string heading(const Column& column);
+
+/// Whether a column holds at least one number, and so is set to the right.
+bool holds_numbers(const Table& table, std::size_t column);
 
 /// The table for a terminal: aligned columns under their headings, numbers to the right, text to the left.
 /// @fails InputError when a row is not as long as the headings
