@@ -42,8 +42,9 @@ footer { margin-top: 3rem; border-top: 1px solid var(--line); padding-top: 0.6re
   body { max-width: none; padding: 0; font-size: 10pt; }
   h2 { break-after: avoid; }
   figure, tr, dl.answer { break-inside: avoid; }
-  .picture { border: none; }
-  .picture svg { max-height: 12cm; }
+  figure { margin: 0.3rem 0 0.5rem; }
+  .picture { border: none; padding: 0; }
+  .picture svg { max-height: 9.6cm; }
   .wide { overflow: visible; }
 }
 </style>
