@@ -6,6 +6,7 @@
 
 #include "base/errors.h"
 #include "cli/commands.h"
+#include "design/keys.h"
 #include "report/result_json.h"
 
 namespace {
@@ -38,6 +39,13 @@ struct Parser {
     app.name("catoptric");
     app.require_subcommand(1);
     app.set_version_flag("--version", report::version());
+    app.add_flag_callback(
+        "--keys",
+        [] {
+          fmt::print("{}", design::reference(design::scene_keys()));
+          throw CLI::Success();
+        },
+        "Print every key of a scene file with its meaning, rule and default");
     app.footer(
         "Examples:\n"
         "  catoptric design data/paper/start_a.toml --out out/a\n"

@@ -23,7 +23,9 @@ struct Key {
   double greatest = std::numeric_limits<double>::infinity();
   bool least_excluded = false;
   std::vector<std::string_view> choices = {};
-  std::size_t count = 0;  ///< how many numbers a list holds; 0: any
+  std::size_t count = 0;           ///< how many numbers a list holds; 0: any
+  std::string_view standard = {};  ///< TOML text of the value it has when left out; empty: none, or one that
+                                   ///< follows from other keys
   std::string_view meaning = {};
 };
 
@@ -42,6 +44,9 @@ std::string nearest_path(std::span<const Key> keys, std::string_view path);
 
 /// Distance in insertions, deletions, substitutions and swaps of neighbours.
 std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// All keys in words, a line or two each: what `--keys` prints.
+std::string reference(std::span<const Key> keys);
 
 /// What the key asks for in words: "a number > 0, in the scene's unit of length".
 std::string rule(const Key& key);

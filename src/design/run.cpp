@@ -85,8 +85,9 @@ optim::Outcome search(const Scene& scene, const Target& target, const RunControl
   options.most_iterations = scene.search.most_iterations;
   options.progress = [&](const optim::Iterate& iterate) {
     share = share_done(scene, iterate.step);
-    return !control.stopped();
+    return true;
   };
+  options.stop_requested = [&] { return control.stopped(); };
   return optim::hooke_jeeves(problem, options);
 }
 

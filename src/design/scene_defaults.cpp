@@ -11,46 +11,6 @@
 namespace catoptric::design {
 namespace {
 
-/// The defaults of keys that depend on nothing else, as TOML text.
-struct Default {
-  const char* path;
-  const char* value;
-};
-constexpr Default plain_defaults[] = {
-    {"title", "\"\""},
-    {"unit", "\"mm\""},
-    {"seed", "1"},
-    {"threads", "0"},
-    {"source.kind", "\"point\""},
-    {"source.position", "[0.0, 0.0, 0.0]"},
-    {"reflector.name", "\"reflector\""},
-    {"reflector.reflectance", "1.0"},
-    {"reflector.transmittance", "0.0"},
-    {"near_field.shape", "\"disc\""},
-    {"near_field.center", "[0.0, 0.0, 0.0]"},
-    {"near_field.normal", "[0.0, 0.0, 1.0]"},
-    {"near_field.samples", "512"},
-    {"near_field.real", "false"},
-    {"target.kind", "\"none\""},
-    {"model.rung", "\"auto\""},
-    {"model.engine", "\"auto\""},
-    {"model.photons", "100000"},
-    {"model.kernel", "\"silverman\""},
-    {"model.sampler", "\"sobol\""},
-    {"model.replicates", "8"},
-    {"model.interactions", "1000"},
-    {"search.method", "\"hooke-jeeves\""},
-    {"search.metric", "\"rmse\""},
-    {"search.acceleration", "1.0"},
-    {"search.reduction", "0.5"},
-    {"search.smallest_step", "0.001"},
-    {"search.most_evaluations", "2000"},
-    {"search.most_iterations", "1000"},
-    {"export.unit", "\"mm\""},
-    {"export.step_schema", "\"ap214\""},
-    {"export.iges_mode", "\"faces\""},
-};
-
 void fill(Settings& settings, const std::string& path, const std::string& value) {
   if (!settings.has(path)) settings.set({path, value, "default"});
 }
@@ -189,7 +149,8 @@ LengthUnit scene_unit(const Settings& settings) {
 }
 
 std::vector<std::string> complete(Settings& settings) {
-  for (const Default& each : plain_defaults) fill(settings, each.path, each.value);
+  for (const Key& key : scene_keys())
+    if (!key.standard.empty()) fill(settings, std::string(key.path), std::string(key.standard));
   if (!settings.has("source.power"))
     throw settings.error("source.power", "is missing", "a source needs its power in W", "source.power = 1.0");
   std::vector<std::string> notes = resolve_profile_file(settings);

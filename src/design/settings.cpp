@@ -13,7 +13,7 @@ const Key& known_key(std::span<const Key> keys, const std::string& path, const s
   const std::string near = nearest_path(keys, path);
   throw InputError({fmt::format("unknown key {}", path), where,
                     "every key must be known, so that no typing error passes",
-                    near.empty() ? "see the scene reference in src/design/README.md"
+                    near.empty() ? "catoptric --keys lists them all"
                                  : fmt::format("did you mean {}?", near)});
 }
 

@@ -92,18 +92,25 @@ std::vector<double> total(const design::Judgement& judgement) {
   return sum;
 }
 
-/// Maps that share one colour scale.
+/// One field to draw. Views that share their scale can be compared by colour.
 struct FieldView {
   std::string name, title;
   std::vector<double> w_per_mm2;
+  bool shares_scale = true;
 };
+
+double greatest_of(const FieldView& view) {
+  double greatest = 0;
+  for (double value : view.w_per_mm2) greatest = std::max(greatest, to_w_per_m2(value));
+  return greatest;
+}
 
 std::vector<NamedFigure> irradiance_figures(const design::Scene& scene, const design::Target& target,
                                             const std::vector<FieldView>& views) {
   if (target.samples.size() < 3) return {};
-  double greatest = 0;
+  double shared = 0;
   for (const FieldView& view : views)
-    for (double value : view.w_per_mm2) greatest = std::max(greatest, to_w_per_m2(value));
+    if (view.shares_scale) shared = std::max(shared, greatest_of(view));
   std::optional<double> disc;
   if (scene.near_field.shape() == sim::NearField::Shape::disc && scene.target.kind != design::TargetKind::csv)
     disc = scene.to_scene_unit(scene.near_field.half_width_mm());
@@ -113,6 +120,7 @@ std::vector<NamedFigure> irradiance_figures(const design::Scene& scene, const de
                             "W/m²",     gridded(scattered(scene, target, view.w_per_mm2), grid_cells, disc),
                             0.0,        {},
                             disc};
+    const double greatest = view.shares_scale ? shared : greatest_of(view);
     if (greatest > 0) figure.greatest = greatest;
     figures.push_back({"irradiance-" + view.name, view.title, irradiance_map_script(figure)});
     figures.push_back({"surface-" + view.name, view.title, irradiance_surface_script(figure)});
@@ -190,11 +198,11 @@ std::vector<NamedFigure> design_figures(const design::Scene& scene, const design
                    generatrix_curve(scene, result.best.profile, "result", CurveRole::obtained)}))}};
   figures.push_back(radial_figure(scene, result.target, result.best.judgement));
   figures.push_back(convergence_figure(scene, result.search));
-  for (NamedFigure& figure :
-       irradiance_figures(scene, result.target,
-                          {{"result", "Irradiance of the result", total(result.best.judgement)},
-                           {"target", "Target irradiance", result.target.irradiance_w_per_mm2},
-                           {"start", "Irradiance of the start", total(result.start.judgement)}}))
+  for (NamedFigure& figure : irradiance_figures(
+           scene, result.target,
+           {{"result", "Irradiance of the result", total(result.best.judgement)},
+            {"target", "Target irradiance", result.target.irradiance_w_per_mm2},
+            {"start", "Irradiance of the start (its own scale)", total(result.start.judgement), false}}))
     figures.push_back(std::move(figure));
   return figures;
 }

@@ -17,7 +17,7 @@ const std::string small =
     " --set model.photons=4000 --set model.replicates=2 --set near_field.samples=60 --set "
     "search.smallest_step=0.1";
 
-Ended catoptric(const std::string& arguments) { return run_shell("'" + program + "' " + arguments); }
+Ended program_run(const std::string& arguments) { return run_shell("'" + program + "' " + arguments); }
 
 json parsed(const std::filesystem::path& file) { return json::parse(file_text(file)); }
 
@@ -31,10 +31,13 @@ json repeatable(const std::filesystem::path& file) {
 }  // namespace
 
 TEST_CASE("help and version are no errors, and every command shows an example") {
-  CHECK(catoptric("--help").code == 0);
-  CHECK(catoptric("--version").code == 0);
+  CHECK(program_run("--help").code == 0);
+  CHECK(program_run("--version").code == 0);
+  const Ended keys = program_run("--keys");
+  CHECK(keys.code == 0);
+  CHECK_THAT(keys.output, Contains("model.photons\n") && Contains("100000 when left out"));
   for (const char* command : {"design", "simulate", "landscape", "profile", "export", "study"}) {
-    const Ended help = catoptric(std::string(command) + " --help");
+    const Ended help = program_run(std::string(command) + " --help");
     INFO(help.output);
     CHECK(help.code == 0);
     CHECK_THAT(help.output, Contains("Example: catoptric " + std::string(command)));
@@ -45,9 +48,9 @@ TEST_CASE("a wrong command line ends with 2") {
   for (const char* arguments :
        {"", "desing", "design", "design a.toml --no-such-option", "design a.toml --threads x"}) {
     INFO(arguments);
-    CHECK(catoptric(arguments).code == 2);
+    CHECK(program_run(arguments).code == 2);
   }
-  const Ended ended = catoptric("design '" + paper + "start_a.toml' --set photons");
+  const Ended ended = program_run("design '" + paper + "start_a.toml' --set photons");
   CHECK(ended.code == 2);
   CHECK_THAT(ended.output, Contains("key=value"));
 }
@@ -56,8 +59,8 @@ TEST_CASE("a broken scene ends with 3, names file, line and key, and leaves no f
   const ScratchFolder folder;
   const auto refused = [&](const std::string& text, const std::string& part) {
     write_text(folder / "scene.toml", text);
-    const Ended ended = catoptric("simulate '" + (folder / "scene.toml").string() + "' --out '" +
-                                  (folder / "out").string() + "'");
+    const Ended ended = program_run("simulate '" + (folder / "scene.toml").string() + "' --out '" +
+                                    (folder / "out").string() + "'");
     INFO(text << "\n-> " << ended.output);
     CHECK(ended.code == 3);
     CHECK_THAT(ended.output, Contains(part));
@@ -69,14 +72,14 @@ TEST_CASE("a broken scene ends with 3, names file, line and key, and leaves no f
   refused("[source]\npower = 1\n", "reflector.points");
   refused(std::string(200000, '['), "not valid TOML");
   refused(std::string("title = \"\xff\xfe\"\n"), "not valid TOML");
-  CHECK(catoptric("simulate /nonexistent.toml").code == 3);
-  CHECK(catoptric("simulate '" + folder.path().string() + "'").code == 3);
+  CHECK(program_run("simulate /nonexistent.toml").code == 3);
+  CHECK(program_run("simulate '" + folder.path().string() + "'").code == 3);
 }
 
 TEST_CASE("design writes the whole set of files, and the result says what other programs rely on") {
   const ScratchFolder folder;
   const std::string out = (folder / "a").string();
-  const Ended ended = catoptric("design '" + paper + "start_a.toml' --out '" + out + "'" + small);
+  const Ended ended = program_run("design '" + paper + "start_a.toml' --out '" + out + "'" + small);
   INFO(ended.output);
   REQUIRE(ended.code == 0);
   for (const char* name : {"result.json", "reflector.step", "reflector.igs", "irradiance.csv",
@@ -108,7 +111,7 @@ TEST_CASE("the written scene gives the same result bit for bit, and threads chan
   const ScratchFolder folder;
   const auto run = [&](const std::string& scene, const std::string& name, const std::string& more) {
     const Ended ended =
-        catoptric("design '" + scene + "' --quiet --out '" + (folder / name).string() + "' " + more);
+        program_run("design '" + scene + "' --quiet --out '" + (folder / name).string() + "' " + more);
     INFO(ended.output);
     REQUIRE(ended.code == 0);
     CHECK(ended.output.empty());
@@ -131,8 +134,9 @@ TEST_CASE("the written scene gives the same result bit for bit, and threads chan
 
 TEST_CASE("a search that runs out of evaluations ends with 5 and writes its files") {
   const ScratchFolder folder;
-  const Ended ended = catoptric("design '" + paper + "start_a.toml' --set search.most_evaluations=4 --out '" +
-                                (folder / "a").string() + "'" + small);
+  const Ended ended =
+      program_run("design '" + paper + "start_a.toml' --set search.most_evaluations=4 --out '" +
+                  (folder / "a").string() + "'" + small);
   CHECK(ended.code == 5);
   CHECK(parsed(folder / "a" / "result.json")["outcome"] == "unconverged");
   CHECK(std::filesystem::exists(folder / "a" / "reflector.step"));
@@ -152,7 +156,7 @@ TEST_CASE("an interrupted search ends with 130 and leaves its best so far") {
 
 TEST_CASE("a folder that cannot be written is found before the work starts") {
   const Ended ended =
-      catoptric("design '" + paper + "start_a.toml' --set model.photons=100000000 --out /dev/null/out");
+      program_run("design '" + paper + "start_a.toml' --set model.photons=100000000 --out /dev/null/out");
   CHECK(ended.code == 6);
   CHECK_THAT(ended.output, Contains("/dev/null/out"));
 }
@@ -160,7 +164,7 @@ TEST_CASE("a folder that cannot be written is found before the work starts") {
 TEST_CASE("simulate, landscape, export and study leave what they promise") {
   const ScratchFolder folder;
   const auto run = [&](const std::string& arguments, const std::string& name) {
-    const Ended ended = catoptric(arguments + " --out '" + (folder / name).string() + "'");
+    const Ended ended = program_run(arguments + " --out '" + (folder / name).string() + "'");
     INFO(arguments << "\n" << ended.output);
     REQUIRE(ended.code == 0);
     return ended.output;
@@ -196,8 +200,9 @@ TEST_CASE("simulate, landscape, export and study leave what they promise") {
 
 TEST_CASE("an irradiance.csv serves as the target of another scene") {
   const ScratchFolder folder;
-  REQUIRE(catoptric("simulate '" + paper + "paraboloid.toml' --out '" + (folder / "p").string() + "'" + small)
-              .code == 0);
+  REQUIRE(
+      program_run("simulate '" + paper + "paraboloid.toml' --out '" + (folder / "p").string() + "'" + small)
+          .code == 0);
   std::string scene = file_text(paper + "start_a.toml");
   const auto at = scene.find("kind = \"paraboloid\"\nfocal_length = 5");
   REQUIRE(at != std::string::npos);
@@ -205,14 +210,14 @@ TEST_CASE("an irradiance.csv serves as the target of another scene") {
                 "kind = \"csv\"\nfile = \"p/irradiance.csv\"\ncolumn = \"total\"");
   write_text(folder / "scene.toml", scene);
   const Ended ended =
-      catoptric("simulate '" + (folder / "scene.toml").string() +
-                "' --set variables.w1.start=1 --set variables.r2.start=10 --out '" + (folder / "q").string() +
-                "' --set model.replicates=2 --set model.photons=4000");
+      program_run("simulate '" + (folder / "scene.toml").string() +
+                  "' --set variables.w1.start=1 --set variables.r2.start=10 --out '" +
+                  (folder / "q").string() + "' --set model.replicates=2 --set model.photons=4000");
   INFO(ended.output);
   REQUIRE(ended.code == 0);
   CHECK(parsed(folder / "q" / "result.json")["objective"]["value"] < 0.2);
   write_text(folder / "scene.toml", scene.replace(scene.find("column = \"total\""), 16, "column = \"lux\""));
-  CHECK_THAT(catoptric("simulate '" + (folder / "scene.toml").string() + "'").output,
+  CHECK_THAT(program_run("simulate '" + (folder / "scene.toml").string() + "'").output,
              Contains("its columns are x, y, z, target"));
 }
 
@@ -221,7 +226,7 @@ TEST_CASE("a profile file that is none ends with 4") {
   write_text(folder / "not.igs", "this is no IGES file\n");
   for (const std::string& name :
        {(folder / "not.igs").string(), std::string("/nonexistent.igs"), folder.path().string()}) {
-    const Ended ended = catoptric("profile '" + name + "'");
+    const Ended ended = program_run("profile '" + name + "'");
     INFO(ended.output);
     CHECK(ended.code == 4);
   }

@@ -135,7 +135,7 @@ TEST_CASE("scenes that contradict themselves are refused with the key and its li
       "[source]\npower = 1\n[reflector]\npoints = [[0, 1], [1, 0]]\nweights = [1]\n[near_field]\nradius = "
       "1\n",
       "1 weights for 2 points");
-  refused("[source]\npower = 1\n[reflector]\npoints = [[0, 1], [-1, 0]]\n[near_field]\nradius = 1\n",
+  refused("[source]\npower = 1\n[reflector]\npoints = [[0, 1], [2, 1], [-1, 0]]\n[near_field]\nradius = 1\n",
           "crosses the axis");
   refused(
       "[source]\npower = 1\n[reflector]\npoints = [[0, 1], [1, 0]]\nreflectance = 0.7\ntransmittance = "

@@ -1,0 +1,152 @@
+#include "report/run_page.h"
+
+#include <fmt/format.h>
+
+#include "base/units.h"
+#include "report/html_report.h"
+#include "report/result_json.h"
+#include "report/run_tables.h"
+
+namespace catoptric::report {
+namespace {
+
+std::string unit_of(const design::Scene& scene) { return std::string(symbol(scene.unit)); }
+
+std::string objective_text(const design::Scene& scene, const design::Judgement& judgement) {
+  const char* unit = scene.search.metric == design::Metric::rmse ? " W/m²" : "";
+  const design::Figure& figure = judgement.objective;
+  return fmt::format("{:.5g}{} (noise ± {:.2g}, bias {:+.2g}{})", figure.value, unit, figure.noise,
+                     figure.bias, unit);
+}
+
+/// How every figure on the page was judged.
+std::vector<Fact> measure_facts(const design::Scene& scene, const design::Judgement& judgement) {
+  return {
+      {"Photons",
+       fmt::format("{} replicates of {} ({})", judgement.replicates, judgement.photons,
+                   scene.model.photons.sampler == sim::Sampler::sobol ? "Sobol, scrambled" : "random")},
+      {"Kernel", fmt::format("{}, mean radius {:.4g} {}", sim::name(scene.model.estimate.kernel),
+                             scene.to_scene_unit(judgement.kernel_radius_mm), unit_of(scene))},
+      {"Samples", fmt::format("{} over {:.4g} mm²", judgement.reflected.size(), scene.near_field.area_mm2())},
+      {"Noise of one evaluation, rms",
+       fmt::format("{:.3g} W/m²", to_w_per_m2(judgement.field_noise_w_per_mm2))},
+      {"Kernel bias of the field, rms",
+       fmt::format("{:.3g} W/m²", to_w_per_m2(judgement.field_bias_w_per_mm2))}};
+}
+
+PageSection figure_section(const std::string& heading, const std::vector<DrawnFigure>& figures) {
+  PageSection section{heading, {}, {}, {}, {}};
+  for (const DrawnFigure& figure : figures)
+    section.figures.push_back(
+        {figure.caption, figure.svg, "not drawn; its data is in figures/" + figure.name + ".gp"});
+  return section;
+}
+
+PageSection mirror_section(const design::Scene& scene, const Profile& profile) {
+  Table points{
+      {{"control point", ""}, {"r", unit_of(scene), 10}, {"z", unit_of(scene), 10}, {"weight", "", 10}}, {}};
+  for (std::size_t i = 0; i < profile.points().size(); ++i) {
+    const ControlPoint& point = profile.points()[i];
+    points.rows.push_back({static_cast<long long>(i), scene.to_scene_unit(point.r_mm),
+                           scene.to_scene_unit(point.z_mm), point.weight});
+  }
+  std::string knots;
+  for (double knot : profile.knots()) knots += fmt::format("{}{:.10g}", knots.empty() ? "" : ", ", knot);
+  return {
+      "The mirror",
+      scene.profile_notes,
+      {{"Degree", fmt::format("{}", profile.degree())},
+       {"Knots", knots},
+       {"Rim radius", fmt::format("{:.8g} {}", scene.to_scene_unit(profile.at(profile.last_parameter()).r_mm),
+                                  unit_of(scene))},
+       {"Depth", fmt::format("{:.8g} {}", scene.to_scene_unit(profile.z_max_mm() - profile.z_min_mm()),
+                             unit_of(scene))},
+       {"Area", fmt::format("{:.8g} mm²", profile.area_mm2())}},
+      {{"Control points", points}},
+      {}};
+}
+
+/// What the model holds and what it does not, so that nobody reads more into the figures.
+PageSection model_section(const design::Scene& scene) {
+  PageSection section{"What was modelled", {}, {}, {}, {}};
+  section.paragraphs = {
+      fmt::format("Photons from a point source meet the true surface of revolution (engine {}), are "
+                  "reflected specularly with "
+                  "probability {:.4g}, pass with {:.4g} or are absorbed, as often as they meet it. Direct "
+                  "light is computed, "
+                  "with the mirror's shadow.",
+                  name(scene.model.engine), scene.mirror.reflectance, scene.mirror.transmittance),
+      "Left out: the size of the source, scattering and the mirror's figure error, colour, polarisation, and "
+      "all "
+      "surroundings but the near field. The kernel's bias is extrapolated from two kernel areas; at jumps of "
+      "the field (the "
+      "rim of a beam, a fold) it is underestimated."};
+  return section;
+}
+
+std::string footer(const design::Scene& scene, const char* command) {
+  return fmt::format("catoptric {} · seed {} · run again with: catoptric {} scene.toml", version(),
+                     scene.seed, command);
+}
+
+std::string title_of(const design::Scene& scene) {
+  return scene.title.empty() ? scene.settings.file() : scene.title;
+}
+
+}  // namespace
+
+std::string design_page(const design::Scene& scene, const design::DesignResult& result,
+                        const std::vector<DrawnFigure>& figures) {
+  Page page{title_of(scene), result.search.sentence, {}, {}, footer(scene, "design")};
+  const std::string metric(name(scene.search.metric));
+  page.facts = {{"Outcome", outcome_word(result.search.ending)},
+                {metric + " of the result", objective_text(scene, result.best.judgement)},
+                {metric + " of the start", objective_text(scene, result.start.judgement)},
+                {"Effort", fmt::format("{} evaluations in {} iterations, {} photons, {:.1f} s",
+                                       result.search.evaluations, result.search.iterations, result.photons,
+                                       result.seconds)}};
+  page.sections = {
+      {"Start and result",
+       {},
+       measure_facts(scene, result.best.judgement),
+       {{"", summary_table(scene, result)}},
+       {}},
+      figure_section("Pictures", figures),
+      mirror_section(scene, result.best.profile),
+      model_section(scene),
+      {"Search", {}, {}, {{"Iterates", convergence_table(scene, result.search)}}, {}},
+  };
+  return html_page(page);
+}
+
+std::string simulation_page(const design::Scene& scene, const design::SimulationResult& result,
+                            const std::vector<DrawnFigure>& figures) {
+  Page page{title_of(scene), "The scene as it stands", {}, {}, footer(scene, "simulate")};
+  if (result.mirror.judgement.has_objective)
+    page.facts.push_back(
+        {std::string(name(scene.search.metric)), objective_text(scene, result.mirror.judgement)});
+  page.facts.push_back({"Effort", fmt::format("{} photons, {:.1f} s", result.photons, result.seconds)});
+  page.sections = {{"Figures of the scene",
+                    {},
+                    measure_facts(scene, result.mirror.judgement),
+                    {{"", simulation_table(scene, result)}},
+                    {}},
+                   figure_section("Pictures", figures),
+                   mirror_section(scene, result.mirror.profile),
+                   model_section(scene)};
+  return html_page(page);
+}
+
+std::string study_page(const design::Study& study, const Table& table, double seconds) {
+  Page page{study.title,
+            "A study: one row per run, figures from elsewhere beside ours",
+            {},
+            {},
+            "catoptric " + version()};
+  page.facts = {{"Runs", fmt::format("{}", study.runs.size())}, {"Time", fmt::format("{:.1f} s", seconds)}};
+  page.sections = {
+      {"Runs", {"Each run has a folder of its own with its report and files."}, {}, {{"", table}}, {}}};
+  return html_page(page);
+}
+
+}  // namespace catoptric::report
