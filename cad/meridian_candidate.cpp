@@ -1,5 +1,6 @@
 #include "cad/meridian_candidate.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace catoptric::cad::meridian {
@@ -51,7 +52,7 @@ Hit make_hit(const SpanTable& table, const NearRay& near, const Candidate& candi
   if (normal.x() * near.dx + normal.y() * near.dy + normal.z() * near.dz > 0) normal = -normal;
   return {near.shift + candidate.t,
           Vector3(candidate.r * e.x(), candidate.r * e.y(), candidate.z + table.centre_z), normal,
-          span.first + candidate.s * span.width};
+          std::min(span.first + candidate.s * span.width, span.last)};
 }
 
 }  // namespace catoptric::cad::meridian

@@ -17,6 +17,7 @@ struct FastPiece {
   static constexpr std::size_t size = 2 * Degree + 1;
   std::array<double, size> rr, zz, z;
   double r0, z0, r1, z1;  ///< the ends
+  double z_min, z_max;    ///< of the poles, so of all its points
   double lo, hi;
   int span;
 };
@@ -64,6 +65,11 @@ FastTable<Degree>::FastTable(const SpanTable& table) {
     piece.z0 = static_cast<double>(z[0]);
     piece.r1 = static_cast<double>(r[Degree]);
     piece.z1 = static_cast<double>(z[Degree]);
+    piece.z_min = piece.z_max = piece.z0;
+    for (const Quad& each : z) {
+      piece.z_min = std::min(piece.z_min, static_cast<double>(each));
+      piece.z_max = std::max(piece.z_max, static_cast<double>(each));
+    }
     piece.lo = rough.lo;
     piece.hi = rough.lo + rough.width;
     piece.span = half.span;
@@ -84,7 +90,7 @@ class FastProbe final : public MeridianProbe {
 
   std::optional<Hit> first_hit(const Ray& ray, double beyond_mm) override {
     const NearRay near(ray, table_);
-    find(ray, near);
+    find(ray, near, beyond_mm, Wanted::first);
     const Candidate* first = nullptr;
     for (const Candidate& candidate : candidates_)
       if (near.shift + candidate.t > beyond_mm && (first == nullptr || candidate.t < first->t))
@@ -95,7 +101,7 @@ class FastProbe final : public MeridianProbe {
 
   std::vector<Hit> all_hits(const Ray& ray, double beyond_mm) override {
     const NearRay near(ray, table_);
-    find(ray, near);
+    find(ray, near, beyond_mm, Wanted::all);
     std::vector<Hit> hits;
     for (const Candidate& candidate : candidates_)
       if (near.shift + candidate.t > beyond_mm) hits.push_back(make_hit(table_, near, candidate));
@@ -105,16 +111,31 @@ class FastProbe final : public MeridianProbe {
   }
 
  private:
-  /// All hits of the line, unordered, into candidates_.
-  void find(const Ray& ray, const NearRay& near) {
+  enum class Wanted { first, all };
+
+  /// The hits of the line, unordered, into candidates_; surely those that are wanted.
+  void find(const Ray& ray, const NearRay& near, double beyond_mm, Wanted wanted) {
     ++counts_.rays;
     candidates_.clear();
     if (!near.passes(table_)) return;
+    constexpr double generous = 1e-9;  // above any rounding of t: a cull may let a root pass, never lose one
+    slack_ = generous * (table_.size + std::abs(near.shift));
+    from_ = beyond_mm - near.shift - slack_;
+    until_ = HUGE_VAL;
+    wanted_ = wanted;
     const AxisLine<double> line(ray, near, table_);
     const bool horizontal = std::abs(line.dz) <= horizontal_slope * line.h;
     if (horizontal ? find_level(line, near) : find_crossings(line, near)) return;
     ++counts_.exact;
     find_exactly(table_, ray, near, candidates_);
+  }
+
+  /// Whether hits on a piece are known to be behind, or beyond the nearest hit so far, without computing
+  /// them. Only for lines steep enough for the height to tell where along the line a point is.
+  bool out_of_range(const AxisLine<double>& line, const FastPiece<Degree>& piece) const {
+    if (std::abs(line.dz) < 0x1p-10) return false;
+    const double a = (piece.z_min - line.oz) / line.dz, b = (piece.z_max - line.oz) / line.dz;
+    return std::max(a, b) < from_ || std::min(a, b) > until_;
   }
 
   bool find_crossings(const AxisLine<double>& line, const NearRay& near);
@@ -129,12 +150,15 @@ class FastProbe final : public MeridianProbe {
         sign_lo, start);
     const double t = distance_along(line, root.point.r, root.point.z);
     candidates_.push_back(make_candidate(near, t, root.s, root.point.r, root.point.z, span));
+    if (wanted_ == Wanted::first && t >= from_ + 2 * slack_) until_ = std::min(until_, t + slack_);
   }
 
   const SpanTable& table_;
   const FastTable<Degree>& fast_;
   std::vector<Candidate> candidates_;
   std::vector<Bracket<double>> brackets_;
+  double from_ = 0, until_ = 0, slack_ = 0;  ///< range of t in which hits are wanted
+  Wanted wanted_ = Wanted::all;
 };
 
 /// @out   false when a piece is left that double cannot decide
@@ -159,7 +183,7 @@ bool FastProbe<Degree>::find_crossings(const AxisLine<double>& line, const NearR
       smallest = std::min(smallest, std::abs(f[i]));
       variations += (f[i] < 0) != (f[i - 1] < 0);
     }
-    if (least > error || greatest < -error) continue;
+    if (least > error || greatest < -error || out_of_range(line, piece)) continue;
     if (smallest > error && variations == 1) {
       const double f0 = residual.value(piece.r0, piece.z0), f1 = residual.value(piece.r1, piece.z1);
       const double start = piece.lo + (piece.hi - piece.lo) * (f0 / (f0 - f1));

@@ -111,6 +111,7 @@ SpanTable::SpanTable(const Profile& profile)
     const int number = static_cast<int>(spans.size());
     SpanForm form{};
     form.first = span.first;
+    form.last = span.last;
     form.width = span.last - span.first;
     Piece<Quad> piece{{}, 0, 1, number, false, false};
     QuadVector rw(count), zw(count), w(count);

@@ -56,7 +56,7 @@ void halve(const Piece<Real>& piece, int degree, Piece<Real>& left, Piece<Real>&
 /// coefficients carry the binomials.
 /// @from  Schumaker & Volk 1986 (a Bernstein polynomial evaluated without de Casteljau)
 struct SpanForm {
-  double first, width;  ///< of the profile's parameter
+  double first, last, width;  ///< of the profile's parameter
   std::array<double, most_poles> rw, zw, w;
   /// Direction of the tangent, (r' w^2, z' w^2) up to a positive factor, with its zeros at the ends divided
   /// out: repeated poles leave the parametrization without a speed there but not the curve without a tangent.

@@ -56,7 +56,9 @@ struct TrueHits {
   bool doubtful = false;  ///< tangent, or at the rim, within the rounding of double
 };
 
-inline TrueHits true_hits(const Quadric& q, const Ray& ray) {
+/// @in rounding  relative error of the profile against its closed form: 16 roundings of double where poles or
+///               weights are not exact; 64 of long double's where they are
+inline TrueHits true_hits(const Quadric& q, const Ray& ray, Wide rounding = 16 * 0x1p-53L) {
   const Wide ox = ray.origin_mm.x(), oy = ray.origin_mm.y(), z0 = ray.origin_mm.z();
   const Wide dx = ray.direction.x(), dy = ray.direction.y(), dz = ray.direction.z();
   // From the closest approach to the part, so that a far source costs no digits.
@@ -67,7 +69,6 @@ inline TrueHits true_hits(const Quadric& q, const Ray& ray) {
   const Wide b = 2 * (x * dx + y * dy) - (q.c1 + 2 * q.c2 * z) * dz;
   const Wide c = x * x + y * y - (q.c0 + z * (q.c1 + q.c2 * z));
   const Wide size = q.profile.diagonal_mm();
-  const Wide rounding = 16 * 0x1p-53L;  // of double, since the profile's poles and weights are doubles
   TrueHits hits;
   if (a == 0 && b == 0) return hits;  // along the side of a cylinder
   const Wide discriminant = b * b - 4 * a * c;
