@@ -100,10 +100,10 @@ Profile profile_of(const Handle(Geom_BSplineCurve) & given, double scale) {
     const double factor = weight_factor(*curve);
     for (int i = 1; i <= curve->NbPoles(); ++i) {
       const gp_Pnt pole = curve->Pole(i);
-      result.points.push_back({scale * pole.X(), scale * pole.Z(), factor * curve->Weight(i)});
+      result.points.push_back({scale * pole.X() + 0.0, scale * pole.Z() + 0.0, factor * curve->Weight(i)});
     }
     const TColStd_Array1OfReal& flat = curve->KnotSequence();
-    result.knots.assign(flat.begin(), flat.end());
+    for (const double knot : flat) result.knots.push_back(knot + 0.0);  // no -0
     return result;
   });
   return Profile(numbers.degree, std::move(numbers.knots), std::move(numbers.points));

@@ -15,6 +15,12 @@ std::mutex& exchange_mutex() {
   return mutex;
 }
 
+bool is_child_process = false;
+
+std::unique_lock<std::mutex> lock_exchange() {
+  return is_child_process ? std::unique_lock<std::mutex>() : std::unique_lock(exchange_mutex());
+}
+
 /// Loads the exchange tables once and keeps OCCT from writing to standard output. Called under the lock.
 void start_exchange() {
   static const bool started = [] {
@@ -40,7 +46,9 @@ void throw_cad_error(std::string_view doing, std::string_view where, std::string
                   "check that the profile has no repeated, crossing or nearly coincident points"});
 }
 
-ExchangeSession::ExchangeSession() : lock_(exchange_mutex()) { start_exchange(); }
+ExchangeSession::ExchangeSession() : lock_(lock_exchange()) { start_exchange(); }
+
+void ExchangeSession::enter_child_process() { is_child_process = true; }
 
 ExchangeSession::~ExchangeSession() {
   for (auto setting = before_.rbegin(); setting != before_.rend(); ++setting)

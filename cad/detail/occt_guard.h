@@ -54,10 +54,13 @@ class ExchangeSession {
   void set(const std::string& name, const std::string& value);
   void set(const std::string& name, int value);
 
+  /// Called first in a forked child, which inherits its parent's lock and is alone.
+  static void enter_child_process();
+
  private:
   void remember(const std::string& name);
 
-  std::lock_guard<std::mutex> lock_;
+  std::unique_lock<std::mutex> lock_;
   std::vector<std::pair<std::string, std::string>> before_;
 };
 

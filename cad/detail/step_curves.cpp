@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+#include <IFSelect_ReturnStatus.hxx>
+#include <STEPControl_Reader.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TopExp_Explorer.hxx>
+
+#include "cad/detail/curve_source.h"
+#include "cad/detail/exchange_check.h"
+#include "cad/detail/occt_guard.h"
+
+namespace catoptric::cad::detail {
+namespace {
+
+void add_free_curves(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, TopAbs_ShapeEnum outside,
+                     CurveSource& source) {
+  int number = 0;
+  for (TopExp_Explorer i(shape, kind, outside); i.More(); i.Next()) {
+    const std::string name = fmt::format("STEP {} {}", kind == TopAbs_WIRE ? "wire" : "edge", ++number);
+    try {
+      SourceCurve curve = joined_curve(pieces_of(i.Current()));
+      curve.description = fmt::format("{}: {}", name, curve.description);
+      source.curves.push_back(std::move(curve));
+    } catch (const CadError& error) {
+      source.refused.push_back({name, error.parts()});
+    }
+  }
+}
+
+std::string unit_words(STEPControl_Reader& reader) {
+  TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
+  reader.FileUnits(lengths, angles, solid_angles);
+  return lengths.IsEmpty() ? "STEP file" : fmt::format("STEP file in {}", lengths.First().ToCString());
+}
+
+}  // namespace
+
+CurveSource read_step_curves(const std::filesystem::path& file) {
+  check_step_layout(file);
+  ExchangeSession session;
+  session.set("xstep.cascade.unit", "MM");
+  return guarded("read the STEP file", file.string(), [&] {
+    STEPControl_Reader reader;
+    // Anything but "done" with roots must not reach TransferRoots: it crashes there.
+    if (reader.ReadFile(file.c_str()) != IFSelect_RetDone || reader.NbRootsForTransfer() < 1)
+      throw CadError({"this is no STEP file with geometry", file.string(), "", "export it again"});
+    CurveSource source;
+    source.unit = unit_words(reader);
+    reader.TransferRoots();
+    const TopoDS_Shape shape = reader.OneShape();
+    if (shape.IsNull()) return source;
+    add_free_curves(shape, TopAbs_WIRE, TopAbs_FACE, source);
+    add_free_curves(shape, TopAbs_EDGE, TopAbs_WIRE, source);
+    CurveSource from_faces;
+    add_faces_of_revolution(shape, from_faces);
+    source.face_axes = from_faces.face_axes;
+    if (source.curves.empty()) {
+      source.curves = std::move(from_faces.curves);
+      source.refused.insert(source.refused.end(), from_faces.refused.begin(), from_faces.refused.end());
+    }
+    return source;
+  });
+}
+
+}  // namespace catoptric::cad::detail
