@@ -114,6 +114,18 @@ TEST_CASE("the nearest N give the field up to the edge of the patch, within bias
   CHECK(outer / outer_count == Approx(1).margin(5 * 0.03 / std::sqrt(12) + 0.003));
 }
 
+TEST_CASE("photons are recorded as far out as the estimates at the edge reach") {
+  const auto samples = field.samples(300);
+  for (const EstimateOptions& options :
+       {EstimateOptions{Kernel::constant, {}, 20.0}, EstimateOptions{Kernel::silverman, 500, {}}}) {
+    const auto got = simulate({source, mirror, {}, field}, samples, photons(20'000), options);
+    const auto all = trace_photons({source, mirror, {}, field}, photons(20'000), 1e6);
+    const auto want = PhotonMap(field, all).estimate(samples, options);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      CHECK(got.reflected[i] == Approx(want.irradiance[i]).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("an even field on a real patch reads even up to its edge") {
   for (const auto& patch : {NearField::disc({0, 0, 0}, {0, 0, 1}, 50, Material{0, 0}),
                             NearField::rectangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 80, 50, Material{0, 0})}) {

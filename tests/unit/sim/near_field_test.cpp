@@ -40,6 +40,10 @@ TEST_CASE("a disc gives exactly the samples asked for, all inside, none in the c
   for (std::size_t count : {0u, 1u, 2u, 7u, 1000u}) {
     const auto samples = field.samples(count);
     REQUIRE(samples.size() == count);
+    double mean_square = 0;
+    for (const FieldSample& sample : samples)
+      mean_square += sample.point_mm.squaredNorm() / static_cast<double>(count);
+    if (count > 0) CHECK(mean_square == Approx(1250));  // that of an even disc, whatever the count
     for (const FieldSample& sample : samples) {
       const Vector2 plane = field.to_plane(sample.point_mm);
       CHECK(field.contains(plane));

@@ -130,6 +130,26 @@ TEST_CASE("a real near field stops what it absorbs and shades the mirror from be
   check_sum(lit.energy);
 }
 
+TEST_CASE("a photon that leaves a real near field does not meet it again before the mirror") {
+  // a tilted plane: the point where a photon lands lies on either side of it by rounding
+  const auto dome = test::half_ellipsoid(0, 50, 50);
+  const PointSource source({0, 0, 30}, 1);
+  const auto field = NearField::disc({0, 0, 1}, {0.1, 0.2, 1}, 100, Material{0.7, 0.3});
+  const auto traced = trace_photons({source, dome, {0, 0}, field}, photons(5000), 0);
+  CHECK(traced.counts.interactions <= 2 * 5000);
+  CHECK(traced.energy.missed_w + traced.energy.absorbed_w == Approx(traced.energy.emitted_w));
+}
+
+TEST_CASE("a photon meets a real near field again after the mirror") {
+  // closed by dome and floor; only the floor absorbs, so everything ends there
+  const auto dome = test::half_ellipsoid(0, 50, 50);
+  const PointSource source({0, 0, 30}, 1);
+  const auto floor = NearField::disc({0, 0, 0}, {0, 0, 1}, 50 * (1 + 1e-12), Material{0.5, 0});
+  const auto traced = trace_photons({source, dome, {1, 0}, floor}, photons(5000), 0);
+  CHECK(traced.energy.received_w + traced.energy.missed_w == Approx(traced.energy.emitted_w).epsilon(1e-12));
+  CHECK(traced.counts.stored > traced.counts.met_mirror);  // many land more than once
+}
+
 TEST_CASE("a photon shut in is cut off, not followed for ever") {
   const auto mirror = test::sphere(0, 50, -50);
   const PointSource source({0, 0, 10}, 1);
@@ -139,6 +159,8 @@ TEST_CASE("a photon shut in is cut off, not followed for ever") {
   const auto traced = trace_photons({source, mirror, {}, field}, options, 0);
   CHECK(traced.energy.cut_off_w == Approx(traced.energy.emitted_w));
   CHECK(traced.counts.interactions == 200 * 100);
+  CHECK(traced.counts.met_mirror == 200);
+  CHECK(traced.counts.stored == 0);  // the field's plane lies on every path, but behind the mirror
   check_sum(traced.energy);
 }
 
