@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cad/meridian_candidate.h"
+#include "cad/meridian_cull.h"
 #include "cad/meridian_isolate.h"
 #include "cad/meridian_reflector.h"
 
@@ -17,65 +18,87 @@ struct FastPiece {
   static constexpr std::size_t size = 2 * Degree + 1;
   std::array<double, size> rr, zz, z;
   double r0, z0, r1, z1;  ///< the ends
-  double z_min, z_max;    ///< of the poles, so of all its points
+  CullNode ring;          ///< of the poles, so of all its points
   double lo, hi;
   int span;
+  std::size_t child;  ///< its lower half; the upper one follows. 0: not halved in advance
 };
 
-/// The pieces of a profile of one degree. Immutable, shared by all probes.
+/// The pieces of a profile of one degree: spans cut in two, and these halved in advance, for lines that meet
+/// a piece more than once or graze it. Immutable, shared by all probes.
 template <int Degree>
 struct FastTable {
   explicit FastTable(const SpanTable& table);
   std::vector<FastPiece<Degree>> pieces;
   std::vector<Piece<double>> halvable;  ///< the same pieces, for the solver by halving
+  std::size_t top = 0;                  ///< the first `top` pieces make up the generatrix
+  std::vector<CullNode> tree;           ///< over these
 };
+
+/// In double: the roundings are far below the certainty that look_at asks for.
+template <int Degree>
+FastPiece<Degree> make_fast_piece(const Piece<double>& from) {
+  constexpr std::size_t count = Degree + 1;
+  FastPiece<Degree> piece{};
+  std::array<double, count> r, z;
+  piece.ring = {HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL, 0, 0, 0, true};
+  for (std::size_t i = 0; i < count; ++i) {
+    r[i] = from.curve.rw[i] / from.curve.w[i];
+    z[i] = from.curve.zw[i] / from.curve.w[i];
+    piece.ring.r_min = std::min(piece.ring.r_min, r[i]);
+    piece.ring.r_max = std::max(piece.ring.r_max, r[i]);
+    piece.ring.z_min = std::min(piece.ring.z_min, z[i]);
+    piece.ring.z_max = std::max(piece.ring.z_max, z[i]);
+  }
+  std::array<double, FastPiece<Degree>::size> shares{};
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j < count; ++j) {
+      const double share = product_binomials[Degree][i][j] * from.curve.w[i] * from.curve.w[j];
+      piece.rr[i + j] += share * r[i] * r[j];
+      piece.zz[i + j] += share * z[i] * z[j];
+      piece.z[i + j] += share * 0.5 * (z[i] + z[j]);
+      shares[i + j] += share;
+    }
+  for (std::size_t k = 0; k < FastPiece<Degree>::size; ++k) {
+    piece.rr[k] /= shares[k];
+    piece.zz[k] /= shares[k];
+    piece.z[k] /= shares[k];
+  }
+  piece.r0 = r[0];
+  piece.z0 = z[0];
+  piece.r1 = r[Degree];
+  piece.z1 = z[Degree];
+  piece.lo = from.lo;
+  piece.hi = from.lo + from.width;
+  piece.span = from.span;
+  return piece;
+}
 
 template <int Degree>
 FastTable<Degree>::FastTable(const SpanTable& table) {
-  constexpr std::size_t count = Degree + 1;
-  for (const Piece<Quad>& half : table.exact_half) {
-    if (table.spans[static_cast<std::size_t>(half.span)].is_point) continue;
-    FastPiece<Degree> piece{};
-    Piece<double> rough{
-        {},          static_cast<double>(half.lo), static_cast<double>(half.width), half.span, half.free_lo,
-        half.free_hi};
-    std::array<Quad, count> r, z;
-    for (std::size_t i = 0; i < count; ++i) {
-      r[i] = half.curve.rw[i] / half.curve.w[i];
-      z[i] = half.curve.zw[i] / half.curve.w[i];
-      rough.curve.rw[i] = static_cast<double>(half.curve.rw[i]);
-      rough.curve.zw[i] = static_cast<double>(half.curve.zw[i]);
-      rough.curve.w[i] = static_cast<double>(half.curve.w[i]);
+  for (const Piece<Quad>& half : table.exact_half)
+    if (!table.spans[static_cast<std::size_t>(half.span)].is_point) halvable.push_back(rounded(half));
+  top = halvable.size();
+  constexpr std::size_t levels = 3;  // measured: a fourth gains 1 %
+  std::vector<std::size_t> children;
+  for (std::size_t level = 0, first = 0; level < levels; ++level) {
+    const std::size_t last = halvable.size();
+    for (; first < last; ++first) {
+      children.push_back(halvable.size());
+      Piece<double> left, right;
+      halve(halvable[first], Degree, left, right);
+      halvable.push_back(left);
+      halvable.push_back(right);
     }
-    std::array<Quad, FastPiece<Degree>::size> rr{}, zz{}, z_mean{}, share_sum{};
-    for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t j = 0; j < count; ++j) {
-        const Quad share = Quad(product_binomials[Degree][i][j]) * half.curve.w[i] * half.curve.w[j];
-        rr[i + j] += share * r[i] * r[j];
-        zz[i + j] += share * z[i] * z[j];
-        z_mean[i + j] += share * (z[i] + z[j]) / 2;
-        share_sum[i + j] += share;
-      }
-    for (std::size_t k = 0; k < FastPiece<Degree>::size; ++k) {
-      piece.rr[k] = static_cast<double>(rr[k] / share_sum[k]);
-      piece.zz[k] = static_cast<double>(zz[k] / share_sum[k]);
-      piece.z[k] = static_cast<double>(z_mean[k] / share_sum[k]);
-    }
-    piece.r0 = static_cast<double>(r[0]);
-    piece.z0 = static_cast<double>(z[0]);
-    piece.r1 = static_cast<double>(r[Degree]);
-    piece.z1 = static_cast<double>(z[Degree]);
-    piece.z_min = piece.z_max = piece.z0;
-    for (const Quad& each : z) {
-      piece.z_min = std::min(piece.z_min, static_cast<double>(each));
-      piece.z_max = std::max(piece.z_max, static_cast<double>(each));
-    }
-    piece.lo = rough.lo;
-    piece.hi = rough.lo + rough.width;
-    piece.span = half.span;
-    pieces.push_back(piece);
-    halvable.push_back(rough);
   }
+  children.resize(halvable.size(), 0);
+  std::vector<CullNode> rings;
+  for (std::size_t i = 0; i < halvable.size(); ++i) {
+    pieces.push_back(make_fast_piece<Degree>(halvable[i]));
+    pieces.back().child = children[i];
+    if (i < top) rings.push_back(pieces.back().ring);
+  }
+  tree = build_cull_tree(rings);
 }
 
 /// Engine `meridian` for one degree.
@@ -113,97 +136,121 @@ class FastProbe final : public MeridianProbe {
  private:
   enum class Wanted { first, all };
 
+  /// One line on its way through the pieces.
+  struct Pass {
+    Pass(const AxisLine<double>& axis_line, const NearRay& near_ray, double beyond_mm, double slack)
+        : line(axis_line),
+          near(near_ray),
+          culler(line, beyond_mm - near.shift - slack, HUGE_VAL, slack),
+          rr(line.dz * line.dz),
+          zz(line.h * line.h),
+          z(2 * line.h * line.level),
+          constant(line.level * line.level + line.skew * line.skew),
+          error(0x1p-41 * line.scale * line.scale) {}
+    const AxisLine<double>& line;
+    const NearRay& near;
+    Culler culler;
+    double rr, zz, z, constant;  ///< factors of FastPiece's coefficients
+    double
+        error;  ///< above every bound of the solver by halving, at any depth: certain here is certain there
+  };
+
   /// The hits of the line, unordered, into candidates_; surely those that are wanted.
   void find(const Ray& ray, const NearRay& near, double beyond_mm, Wanted wanted) {
     ++counts_.rays;
     candidates_.clear();
     if (!near.passes(table_)) return;
-    constexpr double generous = 1e-9;  // above any rounding of t: a cull may let a root pass, never lose one
-    slack_ = generous * (table_.size + std::abs(near.shift));
-    from_ = beyond_mm - near.shift - slack_;
-    until_ = HUGE_VAL;
-    wanted_ = wanted;
     const AxisLine<double> line(ray, near, table_);
+    wanted_ = wanted;
+    constexpr double generous = 1e-9;  // far above any rounding of t, see Culler
+    Pass pass(line, near, beyond_mm, generous * (table_.size + std::abs(near.shift)));
     const bool horizontal = std::abs(line.dz) <= horizontal_slope * line.h;
-    if (horizontal ? find_level(line, near) : find_crossings(line, near)) return;
+    if (horizontal ? find_level(line, near) : find_crossings(pass)) return;
     ++counts_.exact;
     find_exactly(table_, ray, near, candidates_);
   }
 
-  /// Whether hits on a piece are known to be behind, or beyond the nearest hit so far, without computing
-  /// them. Only for lines steep enough for the height to tell where along the line a point is.
-  bool out_of_range(const AxisLine<double>& line, const FastPiece<Degree>& piece) const {
-    if (std::abs(line.dz) < 0x1p-10) return false;
-    const double a = (piece.z_min - line.oz) / line.dz, b = (piece.z_max - line.oz) / line.dz;
-    return std::max(a, b) < from_ || std::min(a, b) > until_;
-  }
-
-  bool find_crossings(const AxisLine<double>& line, const NearRay& near);
+  bool find_crossings(Pass& pass);
   bool find_level(const AxisLine<double>& line, const NearRay& near);
-  bool halve_and_solve(const AxisLine<double>& line, const NearRay& near, const Piece<double>& piece);
-
-  void solve(const AxisLine<double>& line, const NearRay& near, int span, double lo, double hi, int sign_lo,
-             double start) {
-    const SpanForm& form = table_.spans[static_cast<std::size_t>(span)];
-    const auto root = refine<double>(
-        CrossingResidual<double>{line}, [&form](double s) { return evaluate<Degree>(form, s); }, lo, hi,
-        sign_lo, start);
-    const double t = distance_along(line, root.point.r, root.point.z);
-    candidates_.push_back(make_candidate(near, t, root.s, root.point.r, root.point.z, span));
-    if (wanted_ == Wanted::first && t >= from_ + 2 * slack_) until_ = std::min(until_, t + slack_);
-  }
+  bool look_at(Pass& pass, std::size_t number);
+  bool halve_and_solve(Pass& pass, const Piece<double>& piece);
+  void solve(Pass& pass, int span, double lo, double hi, int sign_lo, double start);
 
   const SpanTable& table_;
   const FastTable<Degree>& fast_;
   std::vector<Candidate> candidates_;
   std::vector<Bracket<double>> brackets_;
-  double from_ = 0, until_ = 0, slack_ = 0;  ///< range of t in which hits are wanted
   Wanted wanted_ = Wanted::all;
 };
 
 /// @out   false when a piece is left that double cannot decide
 template <int Degree>
-bool FastProbe<Degree>::find_crossings(const AxisLine<double>& line, const NearRay& near) {
-  using FP = FastPiece<Degree>;
-  const double a = line.dz * line.dz, b = line.h * line.h, c = 2 * line.h * line.level;
-  const double d = line.level * line.level + line.skew * line.skew;
-  // Above every error bound of the solver by halving, at any depth: what is certain here is so there.
-  const double error = 0x1p-41 * line.scale * line.scale;
-  const CrossingResidual<double> residual{line};
-  for (std::size_t number = 0; number < fast_.pieces.size(); ++number) {
-    const FP& piece = fast_.pieces[number];
-    std::array<double, FP::size> f;
-    for (std::size_t i = 0; i < FP::size; ++i)
-      f[i] = (a * piece.rr[i] - b * piece.zz[i]) - (c * piece.z[i] + d);
-    double least = f[0], greatest = f[0], smallest = std::abs(f[0]);
-    int variations = 0;
-    for (std::size_t i = 1; i < FP::size; ++i) {
-      least = std::min(least, f[i]);
-      greatest = std::max(greatest, f[i]);
-      smallest = std::min(smallest, std::abs(f[i]));
-      variations += (f[i] < 0) != (f[i - 1] < 0);
+bool FastProbe<Degree>::find_crossings(Pass& pass) {
+  constexpr std::size_t few = 4;  // pieces for which a tree does not pay
+  if (fast_.top <= few) {
+    for (std::size_t i = 0; i < fast_.top; ++i)
+      if (!look_at(pass, i)) return false;
+    return true;
+  }
+  for (std::size_t n = 0; n < fast_.tree.size();) {
+    const CullNode& node = fast_.tree[n];
+    if (pass.culler.misses(node)) {
+      n = node.skip;
+      continue;
     }
-    if (least > error || greatest < -error || out_of_range(line, piece)) continue;
-    if (smallest > error && variations == 1) {
-      const double f0 = residual.value(piece.r0, piece.z0), f1 = residual.value(piece.r1, piece.z1);
-      const double start = piece.lo + (piece.hi - piece.lo) * (f0 / (f0 - f1));
-      solve(line, near, piece.span, piece.lo, piece.hi, f[0] < 0 ? -1 : 1, start);
-    } else if (!halve_and_solve(line, near, fast_.halvable[number])) {
-      return false;
-    }
+    if (node.leaf)
+      for (std::size_t i = node.first; i < node.last; ++i)
+        if (!look_at(pass, i)) return false;
+    ++n;
   }
   return true;
 }
 
 template <int Degree>
-bool FastProbe<Degree>::halve_and_solve(const AxisLine<double>& line, const NearRay& near,
-                                        const Piece<double>& piece) {
+bool FastProbe<Degree>::look_at(Pass& pass, std::size_t number) {
+  using FP = FastPiece<Degree>;
+  const FP& piece = fast_.pieces[number];
+  std::array<double, FP::size> f;
+  for (std::size_t i = 0; i < FP::size; ++i)
+    f[i] = (pass.rr * piece.rr[i] - pass.zz * piece.zz[i]) - (pass.z * piece.z[i] + pass.constant);
+  double least = f[0], greatest = f[0], smallest = std::abs(f[0]);
+  int variations = 0;
+  for (std::size_t i = 1; i < FP::size; ++i) {
+    least = std::min(least, f[i]);
+    greatest = std::max(greatest, f[i]);
+    smallest = std::min(smallest, std::abs(f[i]));
+    variations += (f[i] < 0) != (f[i - 1] < 0);
+  }
+  if (least > pass.error || greatest < -pass.error || pass.culler.misses(piece.ring)) return true;
+  if (!(smallest > pass.error && variations == 1)) {
+    if (piece.child == 0) return halve_and_solve(pass, fast_.halvable[number]);
+    return look_at(pass, piece.child) && look_at(pass, piece.child + 1);
+  }
+  const CrossingResidual<double> residual{pass.line};
+  const double f0 = residual.value(piece.r0, piece.z0), f1 = residual.value(piece.r1, piece.z1);
+  const double start = piece.lo + (piece.hi - piece.lo) * (f0 / (f0 - f1));
+  solve(pass, piece.span, piece.lo, piece.hi, f[0] < 0 ? -1 : 1, start);
+  return true;
+}
+
+template <int Degree>
+void FastProbe<Degree>::solve(Pass& pass, int span, double lo, double hi, int sign_lo, double start) {
+  const SpanForm& form = table_.spans[static_cast<std::size_t>(span)];
+  const auto at = [&form](double s) { return evaluate<Degree>(form, s); };
+  const auto root = refine<double>(CrossingResidual<double>{pass.line}, at, lo, hi, sign_lo, start);
+  const double t = distance_along(pass.line, root.point.r, root.point.z);
+  candidates_.push_back(make_candidate(pass.near, t, root.s, root.point.r, root.point.z, span));
+  if (wanted_ == Wanted::first) pass.culler.found(t);
+}
+
+template <int Degree>
+bool FastProbe<Degree>::halve_and_solve(Pass& pass, const Piece<double>& piece) {
   ++counts_.halved;
   brackets_.clear();
-  const CrossingForm<double> form{line};
+  const CrossingForm<double> form{pass.line};
   if (!Isolator<double, CrossingForm<double>>(form, Degree, brackets_).run(piece)) return false;
   for (const Bracket<double>& bracket : brackets_)
-    solve(line, near, bracket.span, bracket.lo, bracket.hi, bracket.sign_lo, 0.5 * (bracket.lo + bracket.hi));
+    solve(pass, bracket.span, bracket.lo, bracket.hi, bracket.sign_lo, 0.5 * (bracket.lo + bracket.hi));
   return true;
 }
 
@@ -212,8 +259,8 @@ bool FastProbe<Degree>::find_level(const AxisLine<double>& line, const NearRay& 
   brackets_.clear();
   const LevelForm<double> level{line, table_.z_extent};
   Isolator<double, LevelForm<double>> isolator(level, Degree, brackets_);
-  for (const Piece<double>& piece : fast_.halvable)
-    if (!isolator.run(piece)) return false;
+  for (std::size_t i = 0; i < fast_.top; ++i)
+    if (!isolator.run(fast_.halvable[i])) return false;
   for (const Bracket<double>& bracket : brackets_) {
     const SpanForm& form = table_.spans[static_cast<std::size_t>(bracket.span)];
     const auto root = refine<double>(

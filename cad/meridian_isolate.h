@@ -73,7 +73,7 @@ struct CrossingForm {
     for (const std::size_t end : {std::size_t{0}, count - 1})
       out.ratio[2 * end] = x[end] * x[end] - v[end] * v[end] - skew_squared;
     const Real delta =
-        Real(16 + 4 * degree + 2 * degree * depth) * Precision<Real>::unit_roundoff * line.scale;
+        Real(16 + 10 * degree + 2 * degree * depth) * Precision<Real>::unit_roundoff * line.scale;
     out.error = Real(12) * largest * delta + Real(4) * delta * delta;
   }
 };
@@ -90,8 +90,8 @@ struct LevelForm {
       out.ratio[i] = curve.zw[i] / curve.w[i] - line.oz;
       out.denominator[i] = curve.w[i];
     }
-    out.error =
-        Real(16 + 2 * degree * depth) * Precision<Real>::unit_roundoff * (Real(z_extent) + absolute(line.oz));
+    out.error = Real(16 + 6 * degree + 2 * degree * depth) * Precision<Real>::unit_roundoff *
+                (Real(z_extent) + absolute(line.oz));
   }
 };
 

@@ -28,6 +28,21 @@ struct Piece {
   bool free_lo, free_hi;  ///< whether the generatrix ends there
 };
 
+inline Piece<double> rounded(const Piece<Quad>& piece) {
+  Piece<double> result{{},
+                       static_cast<double>(piece.lo),
+                       static_cast<double>(piece.width),
+                       piece.span,
+                       piece.free_lo,
+                       piece.free_hi};
+  for (std::size_t i = 0; i < most_poles; ++i) {
+    result.curve.rw[i] = static_cast<double>(piece.curve.rw[i]);
+    result.curve.zw[i] = static_cast<double>(piece.curve.zw[i]);
+    result.curve.w[i] = static_cast<double>(piece.curve.w[i]);
+  }
+  return result;
+}
+
 /// Halves a piece by de Casteljau. The common end is the same number in both.
 template <typename Real>
 void halve(const Piece<Real>& piece, int degree, Piece<Real>& left, Piece<Real>& right) {
