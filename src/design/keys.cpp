@@ -357,6 +357,11 @@ const std::vector<Key>& scene_table() {
        .least = 2,
        .greatest = 10000,
        .meaning = "how many values of each"},
+      {.path = "landscape.greatest",
+       .type = number,
+       .least = 0,
+       .least_excluded = true,
+       .meaning = "objective above which the drawn surface is cut off; the table keeps all"},
 
       {.path = "export.unit",
        .type = choice,

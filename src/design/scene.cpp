@@ -174,7 +174,7 @@ std::vector<optim::Variable> variables(Settings& settings, const Profile& base, 
 std::optional<LandscapeSpec> landscape(const Settings& settings, const Profile& base) {
   const auto names = settings.texts("landscape.variables");
   if (!names) {
-    for (const char* key : {"landscape.lower", "landscape.upper", "landscape.steps"})
+    for (const char* key : {"landscape.lower", "landscape.upper", "landscape.steps", "landscape.greatest"})
       if (settings.has(key))
         throw settings.error(key, "stands alone", "a landscape needs its variables",
                              "landscape.variables = [\"w1\", \"r2\"]");
@@ -183,7 +183,7 @@ std::optional<LandscapeSpec> landscape(const Settings& settings, const Profile& 
   if (names->empty() || names->size() > 2 || (names->size() == 2 && names->front() == names->back()))
     throw settings.error("landscape.variables", fmt::format("{} names", names->size()),
                          "a landscape has one or two different variables", "[\"w1\", \"r2\"]");
-  LandscapeSpec spec{*names, {}, {}, {}};
+  LandscapeSpec spec{*names, {}, {}, {}, settings.number("landscape.greatest")};
   for (const std::string& name : *names)
     if (!parse_component(name, base.points().size()))
       throw settings.error(

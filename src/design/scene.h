@@ -58,6 +58,7 @@ struct LandscapeSpec {
   std::vector<std::string> variables;
   std::vector<double> lower, upper;
   std::vector<int> steps;
+  std::optional<double> greatest;  ///< drawn surfaces are cut off there
 };
 
 /// A scene, checked, in mm, W and rad; variables keep the scene's unit, which is what people read and write.

@@ -11,10 +11,9 @@ namespace {
 const Key& known_key(std::span<const Key> keys, const std::string& path, const std::string& where) {
   if (const Key* key = find_key(keys, path)) return *key;
   const std::string near = nearest_path(keys, path);
-  throw InputError({fmt::format("unknown key {}", path), where,
-                    "every key must be known, so that no typing error passes",
-                    near.empty() ? "catoptric --keys lists them all"
-                                 : fmt::format("did you mean {}?", near)});
+  throw InputError(
+      {fmt::format("unknown key {}", path), where, "every key must be known, so that no typing error passes",
+       near.empty() ? "catoptric --keys lists them all" : fmt::format("did you mean {}?", near)});
 }
 
 using Map = std::map<std::string, Setting, std::less<>>;

@@ -255,9 +255,12 @@ std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const des
     figure.marks.push_back({"", curve.x.back(), curve.y.back(), MarkKind::end});
     figure.paths.push_back(std::move(curve));
   }
+  figure.scale = AxisScale::logarithmic;  // the valley's floor and the caustics' peaks are decades apart
   std::vector<NamedFigure> figures{
       {"contours", "Objective over two variables", landscape_contour_script(figure)}};
   figure.paths.clear();
+  figure.scale = AxisScale::linear;
+  figure.greatest = scene.landscape->greatest;
   const SurfaceView views[] = {{55, 35}, {55, 125}, {70, 260}};
   for (std::size_t i = 0; i < 3; ++i)
     figures.push_back({fmt::format("surface-{}", i + 1), "The same as a surface",
