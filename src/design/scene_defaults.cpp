@@ -44,11 +44,14 @@ std::vector<std::string> resolve_profile_file(Settings& settings) {
   }
   const cad::ImportedProfile imported = cad::import_profile(settings.folder() / *file, options);
   const double unit_mm = millimetres_per(scene_unit(settings));
+  const double turn = settings.boolean("reflector.profile_upside_down").value_or(false) ? -1.0 : 1.0;
+  const double file_apex = turn * imported.profile.points().front().z_mm / unit_mm;
+  const double shift = settings.number("reflector.profile_apex").value_or(file_apex) - file_apex;
   std::string points = "[";
   std::vector<double> weights;
   for (const ControlPoint& point : imported.profile.points()) {
-    points +=
-        fmt::format("{}[{}, {}]", points.size() > 1 ? ", " : "", point.r_mm / unit_mm, point.z_mm / unit_mm);
+    points += fmt::format("{}[{}, {}]", points.size() > 1 ? ", " : "", point.r_mm / unit_mm,
+                          turn * point.z_mm / unit_mm + shift);
     weights.push_back(point.weight);
   }
   const std::string where = settings.where("reflector.profile");
@@ -56,9 +59,13 @@ std::vector<std::string> resolve_profile_file(Settings& settings) {
   settings.set({"reflector.degree", fmt::format("{}", imported.profile.degree()), where});
   put(settings, "reflector.weights", weights, where);
   put(settings, "reflector.knots", imported.profile.knots(), where);
-  for (const char* used : {"reflector.profile", "reflector.profile_index", "reflector.profile_axis"})
+  for (const char* used : {"reflector.profile", "reflector.profile_index", "reflector.profile_axis",
+                           "reflector.profile_apex", "reflector.profile_upside_down"})
     settings.remove(used);
   std::vector<std::string> notes{fmt::format("generatrix from {}", *file)};
+  if (turn < 0) notes.push_back("turned upside down");
+  if (shift != 0)
+    notes.push_back(fmt::format("moved by {} {} along the axis", shift, symbol(scene_unit(settings))));
   notes.insert(notes.end(), imported.notes.begin(), imported.notes.end());
   return notes;
 }

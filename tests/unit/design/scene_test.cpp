@@ -160,3 +160,27 @@ TEST_CASE("what cannot be searched or aimed at is said before anything runs") {
       run_landscape(scene(text("[target]\nkind = \"paraboloid\"\nfocal_length = 5\n")), control),
       Catch::Contains("landscape.variables"));
 }
+
+TEST_CASE("a generatrix from an IGES file is placed, turned and written out as the scene's own") {
+  const std::string head =
+      "unit = \"cm\"\n[source]\nposition = [0, 0, 5]\npower = 1\n[near_field]\nradius = 5\n[reflector]\n";
+  const auto from = [&](const std::string& more) {
+    return make_scene(Settings::parse(head + more, data + "/paper/x.toml", scene_keys()));
+  };
+  const Scene plain = from("profile = \"../profiles/start_a.igs\"\n");
+  CHECK(plain.profile.points() == std::vector<ControlPoint>{{0, 100, 1}, {50, 100, 1.6}, {90, 50, 1}});
+  CHECK_FALSE(plain.profile_notes.empty());
+  const Scene again = make_scene(Settings::parse(scene_text(plain), "elsewhere/scene.toml", scene_keys()));
+  CHECK(again.profile == plain.profile);
+
+  const Scene tilted = from("profile = \"../profiles/start_a_tilted.igs\"\nprofile_apex = 10\n");
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(tilted.profile.points()[i].r_mm == Approx(plain.profile.points()[i].r_mm).margin(1e-12));
+    CHECK(tilted.profile.points()[i].z_mm == Approx(plain.profile.points()[i].z_mm).epsilon(1e-13));
+  }
+  const Scene turned = from("profile = \"../profiles/start_a.igs\"\nprofile_upside_down = true\n");
+  CHECK(turned.profile.points()[2].z_mm == -50);
+  CHECK_THROWS_WITH(from("profile = \"../profiles/start_a.igs\"\ndegree = 3\n"),
+                    Catch::Contains("described twice"));
+  CHECK_THROWS_AS(from("profile = \"../profiles/none.igs\"\n"), CadError);
+}
