@@ -182,6 +182,41 @@ TEST_CASE("every degree: hits lie on ray and surface, and are as many as brute f
   }
 }
 
+TEST_CASE("forty wavy spans: culling loses nothing that brute force finds", "[meridian]") {
+  std::vector<ControlPoint> points;
+  for (int i = 0; i < 43; ++i) {
+    const double r = 2.0 * i;
+    points.push_back({r, 60 - r * r / 150 + 2 * std::sin(1.7 * i), 1 + 0.5 * std::cos(2.3 * i)});
+  }
+  const Profile profile(3, Profile::uniform_knots(3, points.size()), points);
+  REQUIRE(profile.spans().size() == 40);
+  const double size = profile.diagonal_mm();
+  const auto reflector = cad::make_meridian_reflector(profile);
+  const auto probe = reflector->probe();
+  const BruteForce brute(profile);
+  std::size_t most = 0, doubtful = 0;
+  for (const RayClass which : all_classes)
+    for (std::uint64_t i = 0; i < 700; ++i) {
+      const Ray ray = line_through(random_ray(which, profile, {1, 2, 40}, 17, i), size);
+      const std::vector<Hit> found = probe->all_hits(ray, 0);
+      const BruteForce::Result truth = brute.count(ray);
+      doubtful += truth.doubtful;
+      most = std::max(most, found.size());
+      INFO("class " << name(which) << " ray " << i);
+      if (!truth.doubtful) CHECK(found.size() == truth.count);
+      const auto first = probe->first_hit(ray, 0);
+      REQUIRE(first.has_value() == !found.empty());
+      if (first) CHECK(first->distance_mm == found.front().distance_mm);
+      // From between the hits only the later ones count.
+      if (found.size() < 2) continue;
+      const double between = 0.5 * (found[0].distance_mm + found[1].distance_mm);
+      CHECK(probe->all_hits(ray, between).size() == found.size() - 1);
+      CHECK(probe->first_hit(ray, between)->distance_mm == found[1].distance_mm);
+    }
+  CHECK(most >= 5);
+  CHECK(doubtful <= 28);
+}
+
 TEST_CASE("normals are across the generatrix and across the azimuth", "[meridian]") {
   for (int degree = 1; degree <= 9; ++degree) {
     const Profile profile = random_profile(degree, 7);
