@@ -25,7 +25,7 @@ Hit make_hit(const SpanTable& table, const NearRay& near, const Candidate& candi
 /// All hits of a line in 113-bit arithmetic, for rays that double cannot decide: tangents, near misses of the
 /// vertex, ends met exactly. A touch that even this arithmetic does not resolve counts as one hit; a line
 /// that lies in the surface (along a cone's side, in a flat part) meets it nowhere.
-/// @cost  0.1 to 1 ms
+/// @cost  0.01 to 4 ms
 void find_exactly(const SpanTable& table, const Ray& ray, const NearRay& near, std::vector<Candidate>& out);
 
 /// A line steeper than this across the axis is taken as horizontal: over the part its height changes by less

@@ -161,6 +161,11 @@ class FastProbe final : public MeridianProbe {
     candidates_.clear();
     if (!near.passes(table_)) return;
     const AxisLine<double> line(ray, near, table_);
+    if (line.h == 0 && line.along == 0 && line.across == 0 && table_.axis_points_known) {  // the axis itself
+      for (const AxisPoint& at : table_.axis_points)
+        candidates_.push_back(make_candidate(near, (at.z - line.oz) / line.dz, at.s, 0, at.z, at.span));
+      return;
+    }
     wanted_ = wanted;
     constexpr double generous = 1e-9;  // far above any rounding of t, see Culler
     Pass pass(line, near, beyond_mm, generous * (table_.size + std::abs(near.shift)));

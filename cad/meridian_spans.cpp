@@ -94,13 +94,27 @@ bool is_closed(const RationalSpan& front, const RationalSpan& back) {
   return front.rw.front() * w1 == back.rw.back() * w0 && front.zw.front() * w1 == back.zw.back() * w0;
 }
 
+/// Adds the ends of a span that lie on the axis, a shared one once.
+/// @out   whether no other point of the span can be there: no pole beyond the axis, one off it
+bool find_axis_points(const Piece<Quad>& span, int degree, std::vector<AxisPoint>& out) {
+  const auto& c = span.curve;
+  const Index last = static_cast<Index>(degree);
+  const bool after_shared = !out.empty() && out.back().span == span.span - 1 && out.back().s == 1;
+  if (c.rw[0] == 0 && !after_shared) out.push_back({span.span, 0, static_cast<double>(c.zw[0] / c.w[0])});
+  if (c.rw[last] == 0) out.push_back({span.span, 1, static_cast<double>(c.zw[last] / c.w[last])});
+  const auto begin = c.rw.begin(), end = begin + degree + 1;
+  return std::all_of(begin, end, [](Quad rw) { return rw >= 0; }) &&
+         std::any_of(begin, end, [](Quad rw) { return rw > 0; });
+}
+
 }  // namespace
 
 SpanTable::SpanTable(const Profile& profile)
     : degree(profile.degree()),
       centre_z(0.5 * (profile.z_min_mm() + profile.z_max_mm())),
       r_extent(0),
-      z_extent(0) {
+      z_extent(0),
+      axis_points_known(true) {
   const double half_height = 0.5 * (profile.z_max_mm() - profile.z_min_mm());
   constexpr double slack = 1 + 1e-6;  // a cull may let a ray pass, never lose one
   reach_squared = slack * (profile.r_max_mm() * profile.r_max_mm() + half_height * half_height);
@@ -132,6 +146,7 @@ SpanTable::SpanTable(const Profile& profile)
     set_tangent(form, rw, zw, w);
     piece.free_lo = !closed && spans.empty();
     piece.free_hi = !closed && spans.size() + 1 == profile.spans().size();
+    axis_points_known = find_axis_points(piece, degree, axis_points) && axis_points_known;
     spans.push_back(form);
     exact.push_back(piece);
     Piece<Quad> left, right;

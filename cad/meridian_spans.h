@@ -80,6 +80,12 @@ struct SpanForm {
   bool is_point;  ///< all poles coincide: no surface
 };
 
+/// A point of the generatrix on the axis, at an end of a span.
+struct AxisPoint {
+  int span;
+  double s, z;
+};
+
 /// Everything about a profile that the solver wants precomputed. Immutable.
 struct SpanTable {
   explicit SpanTable(const Profile& profile);
@@ -90,6 +96,8 @@ struct SpanTable {
   double r_extent, z_extent;  ///< largest |r| and |z - centre_z| of the poles
   double size;                ///< r_extent + z_extent
   std::vector<SpanForm> spans;
+  std::vector<AxisPoint> axis_points;
+  bool axis_points_known;               ///< whether the control polygon shows that there are no others
   std::vector<Piece<Quad>> exact;       ///< the spans themselves
   std::vector<Piece<Quad>> exact_half;  ///< each cut in two
 };

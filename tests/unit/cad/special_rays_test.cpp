@@ -52,7 +52,6 @@ TEST_CASE("the axial ray meets a smooth vertex once, head-on", "[special]") {
 }
 
 TEST_CASE("a ray off the axis by any amount meets the vertex region once", "[special]") {
-  const auto probe = cad::make_meridian_reflector(paraboloid)->probe();
   const auto reflector = cad::make_meridian_reflector(paraboloid);
   const auto own = reflector->probe();
   for (int power = 1; power <= 320; ++power) {
@@ -68,6 +67,15 @@ TEST_CASE("a ray off the axis by any amount meets the vertex region once", "[spe
       CHECK((hits[0].normal - normal).norm() <= 1e-14);
     }
   }
+  CHECK(dynamic_cast<const cad::MeridianProbe&>(*own).counts().exact > 600);
+}
+
+TEST_CASE("a generatrix that touches the axis between its ends is met there", "[special]") {
+  // r = 5 (1 - 2 s)^2: the pole in the middle lies beyond the axis, the curve does not.
+  const Profile waist = Profile::bezier({{5, 0, 1}, {-5, 5, 1}, {5, 10, 1}});
+  const auto hits = meridian_hits(waist, {{0, 0, -7}, {0, 0, 1}});
+  REQUIRE(hits.size() == 1);
+  CHECK(off(waist, hits[0], {0, 0, 5}) <= 1e-15);
 }
 
 TEST_CASE("an oblique ray aimed at the vertex meets it once", "[special]") {
@@ -97,6 +105,20 @@ TEST_CASE("a ball is met at both vertices, a pole repeated at the vertex changes
     CHECK(hits[0].parameter == 2);
     CHECK((hits[0].normal - Vector3(0, 0, -1)).norm() <= 1e-15);
     CHECK((hits[1].normal - Vector3(0, 0, -1)).norm() <= 1e-15);
+    // Two balls on the axis that touch: their common point counts once.
+    const double w = std::sqrt(0.5);
+    const Profile beads(2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4},
+                        {{0, 20, 1},
+                         {5, 20, w},
+                         {5, 15, 1},
+                         {5, 10, w},
+                         {0, 10, 1},
+                         {5, 10, w},
+                         {5, 5, 1},
+                         {5, 0, w},
+                         {0, 0, 1}});
+    const auto beads_reflector = make(beads);
+    CHECK(beads_reflector->probe()->all_hits({{0, 0, -7}, {0, 0, 1}}, 0).size() == 3);
 
     const auto reflector = make(repeated);
     const auto probe = reflector->probe();
