@@ -23,7 +23,8 @@ std::unique_ptr<Reflector> make_occt_reflector(const Profile& profile);
 /// touch counts once; a ray that lies in the surface meets it nowhere; the rim belongs to the mirror. At the
 /// tip of a cone, which has no normal, the normal is that of the ray's own meridian plane.
 /// @error hit and ray, hit and surface: within some ten roundings of the part's size at any incidence
-/// @cost  0.2 to 0.6 us a ray for a few spans (growing with their logarithm); 0.01 to 4 ms for those in 113 bits
+/// @cost  0.2 to 0.6 us a ray for a few spans (growing with their logarithm); 0.01 to 4 ms for those in 113
+/// bits
 std::unique_ptr<Reflector> make_meridian_reflector(const Profile& profile);
 
 }  // namespace catoptric::cad
