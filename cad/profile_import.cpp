@@ -23,8 +23,11 @@ using detail::CurveSource;
 using detail::SourceCurve;
 
 std::string listing(const std::vector<std::string>& items) {
+  constexpr std::size_t most = 40;
   std::string text;
-  for (std::size_t i = 0; i < items.size(); ++i) text += fmt::format("{}[{}] {}", i ? "; " : "", i, items[i]);
+  for (std::size_t i = 0; i < std::min(items.size(), most); ++i)
+    text += fmt::format("{}[{}] {}", i ? "; " : "", i, items[i]);
+  if (items.size() > most) text += fmt::format("; and {} more", items.size() - most);
   return text;
 }
 

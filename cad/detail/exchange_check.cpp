@@ -16,7 +16,7 @@
 namespace catoptric::cad::detail {
 namespace {
 
-constexpr std::uintmax_t greatest_size = 1u << 30;  // 1 GiB; a reflector's file has some kB
+constexpr std::uintmax_t greatest_size = 1u << 28;  // 256 MiB; a reflector has some kB
 
 std::string content_of(const std::filesystem::path& file) {
   std::error_code error;
@@ -27,7 +27,7 @@ std::string content_of(const std::filesystem::path& file) {
     throw CadError({"this is not a file", file.string(), "", "name a file, not a folder"});
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error || size > greatest_size)
-    throw CadError({"the file is too large", file.string(), "files up to 1 GiB are read", "export less"});
+    throw CadError({"the file is too large", file.string(), "files up to 256 MiB are read", "export less"});
   std::ifstream in(file, std::ios::binary);
   std::string content((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (!in && content.empty())

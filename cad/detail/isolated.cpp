@@ -22,6 +22,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds limit{120};
+constexpr rlim_t most_memory = rlim_t{8}
+                               << 30;  // the largest file we take, and OCCT needs some ten times its size
 
 enum class Outcome : char { result = 'r', cad_error = 'c', other_error = 'o' };
 
@@ -52,6 +54,10 @@ std::string packet_of(const std::function<std::string()>& work) {
     std::signal(signal, SIG_DFL);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
+#ifndef __SANITIZE_ADDRESS__  // which reserves terabytes
+  const rlimit memory{most_memory, most_memory};
+  ::setrlimit(RLIMIT_AS, &memory);
+#endif
   ExchangeSession::enter_child_process();
   const std::string bytes = packet_of(work);
   for (std::size_t sent = 0; sent < bytes.size();) {

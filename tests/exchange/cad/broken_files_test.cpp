@@ -8,6 +8,7 @@
 #include "support/temporary_folder.h"
 
 using namespace catoptric;
+using test::IgesText;
 using test::TemporaryFolder;
 
 namespace {
@@ -104,6 +105,18 @@ TEST_CASE("Numbers that are none") {
     survive(folder, text, "number.igs", refused);
   }
   CHECK(refused >= 2);
+}
+
+TEST_CASE("A count that is not true kills the reading process, not us") {
+  const TemporaryFolder folder;
+  int refused = 0;
+  for (const char* count : {"100000", "9999999", "999999999", "-5"}) {
+    IgesText file;
+    file.add(
+        {126, 0, std::string(count) + ",2,0,0,0,0,0.,0.,0.,1.,1.,1.,1.,1.,1.,0.,0.,10.,5.,0.,10.,9.,0.,5."});
+    survive(folder, file.text(), "count.igs", refused);
+  }
+  CHECK(refused == 4);
 }
 
 TEST_CASE("The reading process leaves the settings and the lock as they were") {
