@@ -29,10 +29,10 @@ struct ImportedProfile {
 
 /// Reads a generatrix from an IGES or STEP file (told apart by their content).
 ///
-/// Candidates are the file's free curves: IGES 100, 102, 104, 106, 110, 112, 126, 130, and STEP edges and
-/// wires outside faces. A lone line beside another curve is its axis, not a candidate. A file without free
-/// curves offers the meridians of its faces of revolution (surface of revolution, cylinder, cone, sphere,
-/// torus), equal ones once.
+/// Candidates are the file's free curves: IGES 100, 102, 104, 106, 110, 112, 126, 130, and STEP wires and
+/// edges outside faces (edges that meet end to end are one curve). A lone line beside another curve is its
+/// axis, not a candidate. A file without free curves offers the meridians of its faces of revolution (surface
+/// of revolution, cylinder, cone, sphere, torus), equal ones once.
 ///
 /// Axis, first that applies: options.axis; a face's own axis; the lone line; the axis of a face of revolution
 /// in the file, if all have the same; the coordinate axis that lies in a plane with the curve and is

@@ -54,6 +54,10 @@ struct CurvePiece {
 /// @fails CadError when an edge has no curve or cannot be approximated
 std::vector<CurvePiece> pieces_of(const TopoDS_Shape& edges);
 
+/// Sorts loose pieces into chains: pieces whose ends meet two at a time, in order. STEP writers (OCCT's too)
+/// take wires apart. Where three or more ends meet nothing is joined.
+std::vector<std::vector<CurvePiece>> chains_of(std::vector<CurvePiece> pieces);
+
 /// One B-spline from pieces that follow each other, each either way round.
 /// @fails CadError at a gap
 SourceCurve joined_curve(const std::vector<CurvePiece>& pieces);

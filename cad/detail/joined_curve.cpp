@@ -161,6 +161,43 @@ std::vector<CurvePiece> pieces_of(const TopoDS_Shape& edges) {
   return pieces;
 }
 
+std::vector<std::vector<CurvePiece>> chains_of(std::vector<CurvePiece> pieces) {
+  std::vector<gp_Pnt> ends;  // 2 i and 2 i + 1 belong to piece i
+  std::vector<double> sizes;
+  for (const CurvePiece& piece : pieces) {
+    ends.push_back(piece.spline->StartPoint());
+    ends.push_back(piece.spline->EndPoint());
+    sizes.push_back(size_of(piece.spline));
+  }
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> partner(ends.size(), none);
+  for (std::size_t a = 0; a < partner.size(); ++a) {
+    std::vector<std::size_t> here;
+    for (std::size_t b = 0; b < partner.size(); ++b) {
+      const double size = std::max(sizes[a / 2], sizes[b / 2]);
+      if (a != b && ends[a].Distance(ends[b]) <= import_rel * size) here.push_back(b);
+    }
+    if (here.size() == 1 && here.front() / 2 != a / 2) partner[a] = here.front();
+  }
+  for (std::size_t a = 0; a < partner.size(); ++a)  // where three meet, nearness may be one-sided
+    if (partner[a] != none && partner[partner[a]] != a) partner[a] = none;
+  std::vector<std::vector<CurvePiece>> chains;
+  std::vector<bool> used(pieces.size(), false);
+  const auto follow = [&](std::size_t entry) {  // from the end at which the chain starts
+    chains.emplace_back();
+    while (entry != none && !used[entry / 2]) {
+      used[entry / 2] = true;
+      chains.back().push_back(pieces[entry / 2]);
+      entry = partner[entry ^ 1];
+    }
+  };
+  for (std::size_t end = 0; end < partner.size(); ++end)
+    if (partner[end] == none && !used[end / 2]) follow(end);
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece)
+    if (!used[piece]) follow(2 * piece);  // closed chains have no loose end
+  return chains;
+}
+
 SourceCurve joined_curve(const std::vector<CurvePiece>& pieces) {
   if (pieces.empty()) throw CadError({"a curve has no length", "", "", "check the file"});
   SourceCurve result;

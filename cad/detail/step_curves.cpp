@@ -11,19 +11,42 @@
 namespace catoptric::cad::detail {
 namespace {
 
-void add_free_curves(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, TopAbs_ShapeEnum outside,
-                     CurveSource& source) {
-  int number = 0;
-  for (TopExp_Explorer i(shape, kind, outside); i.More(); i.Next()) {
-    const std::string name = fmt::format("STEP {} {}", kind == TopAbs_WIRE ? "wire" : "edge", ++number);
-    try {
-      SourceCurve curve = joined_curve(pieces_of(i.Current()));
-      curve.description = fmt::format("{}: {}", name, curve.description);
-      source.curves.push_back(std::move(curve));
-    } catch (const CadError& error) {
-      source.refused.push_back({name, error.parts()});
-    }
+void add_curve(const std::string& name, const std::vector<CurvePiece>& pieces, CurveSource& source) {
+  try {
+    SourceCurve curve = joined_curve(pieces);
+    curve.description = fmt::format("{}: {}", name, curve.description);
+    source.curves.push_back(std::move(curve));
+  } catch (const CadError& error) {
+    source.refused.push_back({name, error.parts()});
   }
+}
+
+/// Pieces of one wire or edge; an unusable one is noted and left out.
+std::vector<CurvePiece> pieces_or_refusal(const std::string& name, const TopoDS_Shape& shape,
+                                          CurveSource& source) {
+  try {
+    return pieces_of(shape);
+  } catch (const CadError& error) {
+    source.refused.push_back({name, error.parts()});
+    return {};
+  }
+}
+
+/// Wires and edges that bound no face; edges that meet end to end are one curve.
+void add_free_curves(const TopoDS_Shape& shape, CurveSource& source) {
+  int number = 0;
+  for (TopExp_Explorer i(shape, TopAbs_WIRE, TopAbs_FACE); i.More(); i.Next()) {
+    const std::string name = fmt::format("STEP wire {}", ++number);
+    const auto pieces = pieces_or_refusal(name, i.Current(), source);
+    if (!pieces.empty()) add_curve(name, pieces, source);
+  }
+  std::vector<CurvePiece> loose;
+  for (TopExp_Explorer i(shape, TopAbs_EDGE, TopAbs_WIRE); i.More(); i.Next())
+    for (CurvePiece& piece : pieces_or_refusal("a STEP edge", i.Current(), source))
+      loose.push_back(std::move(piece));
+  number = 0;
+  for (const auto& chain : chains_of(std::move(loose)))
+    add_curve(fmt::format("STEP curve {}", ++number), chain, source);
 }
 
 std::string unit_words(STEPControl_Reader& reader) {
@@ -48,8 +71,7 @@ CurveSource read_step_curves(const std::filesystem::path& file) {
     reader.TransferRoots();
     const TopoDS_Shape shape = reader.OneShape();
     if (shape.IsNull()) return source;
-    add_free_curves(shape, TopAbs_WIRE, TopAbs_FACE, source);
-    add_free_curves(shape, TopAbs_EDGE, TopAbs_WIRE, source);
+    add_free_curves(shape, source);
     CurveSource from_faces;
     add_faces_of_revolution(shape, from_faces);
     source.face_axes = from_faces.face_axes;
