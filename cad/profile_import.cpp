@@ -6,6 +6,7 @@
 #include <gp_Lin.hxx>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "cad/detail/byte_packet.h"
@@ -228,11 +229,19 @@ ImportedProfile unpack(const std::string& bytes) {
   return {Profile(degree, std::move(knots), std::move(points)), std::move(notes), std::move(candidates)};
 }
 
+/// OCCT reads about a MiB in a second; a file that takes far longer keeps it busy for ever.
+std::chrono::seconds time_for(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+  return std::chrono::seconds(20 + (ignored ? 0 : static_cast<long>(size >> 19)));
+}
+
 }  // namespace
 
 ImportedProfile import_profile(const std::filesystem::path& file, const ImportOptions& options) {
   const detail::ExchangeKind kind = detail::kind_of_file(file);
-  return unpack(detail::run_isolated(file.string(), [&] { return pack(import_here(file, kind, options)); }));
+  return unpack(detail::run_isolated(file.string(), time_for(file),
+                                     [&] { return pack(import_here(file, kind, options)); }));
 }
 
 }  // namespace catoptric::cad

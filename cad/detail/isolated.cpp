@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -21,7 +22,6 @@ namespace catoptric::cad::detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::seconds limit{120};
 constexpr rlim_t most_memory = rlim_t{8}
                                << 30;  // the largest file we take, and OCCT needs some ten times its size
 
@@ -49,9 +49,14 @@ std::string packet_of(const std::function<std::string()>& work) {
 }
 
 /// The child's whole life. It ends without exit handlers, which belong to the parent.
-[[noreturn]] void live_as_child(int pipe, const std::function<std::string()>& work) {
+[[noreturn]] void live_as_child(int pipe, std::chrono::seconds limit,
+                                const std::function<std::string()>& work) {
   for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGINT, SIGTERM, SIGPIPE})
     std::signal(signal, SIG_DFL);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // or it works on when the parent is killed
+  const auto seconds = static_cast<rlim_t>(limit.count());
+  const rlimit time{seconds, seconds};
+  ::setrlimit(RLIMIT_CPU, &time);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
 #ifndef __SANITIZE_ADDRESS__  // which reserves terabytes
@@ -114,7 +119,8 @@ std::string unpack(std::string_view where, const std::string& bytes) {
 
 }  // namespace
 
-std::string run_isolated(std::string_view where, const std::function<std::string()>& work) {
+std::string run_isolated(std::string_view where, std::chrono::seconds limit,
+                         const std::function<std::string()>& work) {
   std::array<int, 2> ends{};
   if (::pipe(ends.data()) != 0) refuse(where, std::strerror(errno));
   pid_t child = -1;
@@ -123,7 +129,7 @@ std::string run_isolated(std::string_view where, const std::function<std::string
     child = ::fork();
     if (child == 0) {
       ::close(ends[0]);
-      live_as_child(ends[1], work);
+      live_as_child(ends[1], limit, work);
     }
   }
   ::close(ends[1]);
@@ -135,7 +141,9 @@ std::string run_isolated(std::string_view where, const std::function<std::string
   ::close(ends[0]);
   if (!bytes) ::kill(child, SIGKILL);
   const int status = wait_for(child);
-  if (!bytes) refuse(where, fmt::format("OpenCASCADE does not come to an end within {} s", limit.count()));
+  const bool ran_out =
+      !bytes || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL));
+  if (ran_out) refuse(where, fmt::format("OpenCASCADE does not come to an end within {} s", limit.count()));
   if (WIFSIGNALED(status))
     refuse(where, fmt::format("it is broken: OpenCASCADE crashes on it (signal {})", WTERMSIG(status)));
   if (WEXITSTATUS(status) != 0) refuse(where, "reading it ended without a result");

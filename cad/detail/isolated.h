@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -10,8 +11,9 @@ namespace catoptric::cad::detail {
 /// OCCT's readers trust a file's pointers: of STEP files with a few wrong characters a third kill the process
 /// (measured on 800), and some keep it busy for ever. A child's death is a message, ours would be a loss.
 /// @in    where: the file, for messages; `work` must not use other threads
-/// @fails CadError when the child dies, sends nothing or takes longer than two minutes
+/// @fails CadError when the child dies, sends nothing or takes longer than `limit`
 /// @cost  about 2 ms
-std::string run_isolated(std::string_view where, const std::function<std::string()>& work);
+std::string run_isolated(std::string_view where, std::chrono::seconds limit,
+                         const std::function<std::string()>& work);
 
 }  // namespace catoptric::cad::detail
