@@ -12,7 +12,7 @@ struct Figure {
   double value = 0;  ///< mean over replicates of the objective as the search computes it
   double noise = 0;  ///< standard error of `value`, from the replicates' spread
   double bias = 0;   ///< estimated systematic part of `value`: photon noise that eq. 7 counts as error, and
-                    ///< the kernel's blur
+                     ///< the kernel's blur
 };
 
 /// A mirror judged on random streams that no search used.

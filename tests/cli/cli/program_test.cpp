@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/program.h"
+#include "support/temporary_folder.h"
 
 using namespace catoptric::test;
 using Catch::Contains;
@@ -19,7 +20,7 @@ const std::string small =
 
 Ended program_run(const std::string& arguments) { return run_shell("'" + program + "' " + arguments); }
 
-json parsed(const std::filesystem::path& file) { return json::parse(file_text(file)); }
+json parsed(const std::filesystem::path& file) { return json::parse(read_whole(file)); }
 
 /// The part of a result that must repeat: all but how long it took.
 json repeatable(const std::filesystem::path& file) {
@@ -56,9 +57,9 @@ TEST_CASE("a wrong command line ends with 2") {
 }
 
 TEST_CASE("a broken scene ends with 3, names file, line and key, and leaves no folder") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto refused = [&](const std::string& text, const std::string& part) {
-    write_text(folder / "scene.toml", text);
+    write_whole(folder / "scene.toml", text);
     const Ended ended = program_run("simulate '" + (folder / "scene.toml").string() + "' --out '" +
                                     (folder / "out").string() + "'");
     INFO(text << "\n-> " << ended.output);
@@ -77,7 +78,7 @@ TEST_CASE("a broken scene ends with 3, names file, line and key, and leaves no f
 }
 
 TEST_CASE("design writes the whole set of files, and the result says what other programs rely on") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const std::string out = (folder / "a").string();
   const Ended ended = program_run("design '" + paper + "start_a.toml' --out '" + out + "'" + small);
   INFO(ended.output);
@@ -101,14 +102,14 @@ TEST_CASE("design writes the whole set of files, and the result says what other 
   for (const char* key : {"iterations", "successes", "evaluations", "photons"})
     CHECK(result["counts"][key].is_number_unsigned());
   for (const char* key : {"seconds", "model", "intersector", "seed", "version"}) CHECK(result.contains(key));
-  CHECK_THAT(file_text(folder / "a" / "irradiance.csv"),
+  CHECK_THAT(read_whole(folder / "a" / "irradiance.csv"),
              Catch::StartsWith("x,y,z,target,direct,reflected,total,noise\n"));
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
     CHECK(entry.path().string().find(".partial") == std::string::npos);
 }
 
 TEST_CASE("the written scene gives the same result bit for bit, and threads change nothing") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto run = [&](const std::string& scene, const std::string& name, const std::string& more) {
     const Ended ended =
         program_run("design '" + scene + "' --quiet --out '" + (folder / name).string() + "' " + more);
@@ -126,14 +127,14 @@ TEST_CASE("the written scene gives the same result bit for bit, and threads chan
     CHECK(repeatable(folder / name / "result.json") == repeatable(folder / "one" / "result.json"));
     for (const char* file : {"irradiance.csv", "convergence.csv", "reflector.step", "reflector.igs"}) {
       INFO(file);
-      CHECK(file_text(folder / name / file) == file_text(folder / "one" / file));
+      CHECK(read_whole(folder / name / file) == read_whole(folder / "one" / file));
     }
   }
-  CHECK(file_text(folder / "other" / "irradiance.csv") != file_text(folder / "one" / "irradiance.csv"));
+  CHECK(read_whole(folder / "other" / "irradiance.csv") != read_whole(folder / "one" / "irradiance.csv"));
 }
 
 TEST_CASE("a search that runs out of evaluations ends with 5 and writes its files") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const Ended ended =
       program_run("design '" + paper + "start_a.toml' --set search.most_evaluations=4 --out '" +
                   (folder / "a").string() + "'" + small);
@@ -143,7 +144,7 @@ TEST_CASE("a search that runs out of evaluations ends with 5 and writes its file
 }
 
 TEST_CASE("an interrupted search ends with 130 and leaves its best so far") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const Ended ended =
       run_shell("timeout --signal=INT --preserve-status 2 '" + program + "' design '" + paper +
                 "start_a.toml' --set model.photons=400000 --set model.replicates=2 --out '" +
@@ -162,7 +163,7 @@ TEST_CASE("a folder that cannot be written is found before the work starts") {
 }
 
 TEST_CASE("simulate, landscape, export and study leave what they promise") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const auto run = [&](const std::string& arguments, const std::string& name) {
     const Ended ended = program_run(arguments + " --out '" + (folder / name).string() + "'");
     INFO(arguments << "\n" << ended.output);
@@ -174,7 +175,7 @@ TEST_CASE("simulate, landscape, export and study leave what they promise") {
   CHECK(std::filesystem::exists(folder / "s" / "irradiance.csv"));
 
   run("landscape '" + paper + "start_a.toml' --set landscape.steps=[3,4]" + small, "l");
-  const std::string table = file_text(folder / "l" / "landscape.csv");
+  const std::string table = read_whole(folder / "l" / "landscape.csv");
   CHECK(std::count(table.begin(), table.end(), '\n') == 13);
 
   run("export '" + paper +
@@ -184,10 +185,10 @@ TEST_CASE("simulate, landscape, export and study leave what they promise") {
        {"reflector.step", "reflector.igs", "reflector.stl", "reflector.glb", "reflector.brep"})
     CHECK(std::filesystem::exists(folder / "e" / name));
 
-  write_text(folder / "study.toml",
-             "scene = '" + paper +
-                 "start_a.toml'\ncommand = \"simulate\"\n[[runs]]\nname = \"a\"\nset = "
-                 "{\"variables.w1.start\" = 1.0}\nreference = {w1 = 1.5}\n[[runs]]\nname = \"b\"\n");
+  write_whole(folder / "study.toml",
+              "scene = '" + paper +
+                  "start_a.toml'\ncommand = \"simulate\"\n[[runs]]\nname = \"a\"\nset = "
+                  "{\"variables.w1.start\" = 1.0}\nreference = {w1 = 1.5}\n[[runs]]\nname = \"b\"\n");
   const std::string printed = run("study '" + (folder / "study.toml").string() + "'" + small, "st");
   const json list = parsed(folder / "st" / "study.json");
   REQUIRE(list.size() == 2);
@@ -199,16 +200,16 @@ TEST_CASE("simulate, landscape, export and study leave what they promise") {
 }
 
 TEST_CASE("an irradiance.csv serves as the target of another scene") {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   REQUIRE(
       program_run("simulate '" + paper + "paraboloid.toml' --out '" + (folder / "p").string() + "'" + small)
           .code == 0);
-  std::string scene = file_text(paper + "start_a.toml");
+  std::string scene = read_whole(paper + "start_a.toml");
   const auto at = scene.find("kind = \"paraboloid\"\nfocal_length = 5");
   REQUIRE(at != std::string::npos);
   scene.replace(at, std::string("kind = \"paraboloid\"\nfocal_length = 5").size(),
                 "kind = \"csv\"\nfile = \"p/irradiance.csv\"\ncolumn = \"total\"");
-  write_text(folder / "scene.toml", scene);
+  write_whole(folder / "scene.toml", scene);
   const Ended ended =
       program_run("simulate '" + (folder / "scene.toml").string() +
                   "' --set variables.w1.start=1 --set variables.r2.start=10 --out '" +
@@ -216,14 +217,14 @@ TEST_CASE("an irradiance.csv serves as the target of another scene") {
   INFO(ended.output);
   REQUIRE(ended.code == 0);
   CHECK(parsed(folder / "q" / "result.json")["objective"]["value"] < 0.2);
-  write_text(folder / "scene.toml", scene.replace(scene.find("column = \"total\""), 16, "column = \"lux\""));
+  write_whole(folder / "scene.toml", scene.replace(scene.find("column = \"total\""), 16, "column = \"lux\""));
   CHECK_THAT(program_run("simulate '" + (folder / "scene.toml").string() + "'").output,
              Contains("its columns are x, y, z, target"));
 }
 
 TEST_CASE("a profile file that is none ends with 4") {
-  const ScratchFolder folder;
-  write_text(folder / "not.igs", "this is no IGES file\n");
+  const TemporaryFolder folder;
+  write_whole(folder / "not.igs", "this is no IGES file\n");
   for (const std::string& name :
        {(folder / "not.igs").string(), std::string("/nonexistent.igs"), folder.path().string()}) {
     const Ended ended = program_run("profile '" + name + "'");

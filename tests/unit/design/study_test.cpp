@@ -1,20 +1,20 @@
 #include "design/study.h"
 
 #include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
 
 #include "base/errors.h"
+#include "support/temporary_folder.h"
 
 using namespace catoptric;
 using namespace catoptric::design;
 
 namespace {
 
-std::filesystem::path study_file(const std::string& text) {
-  const auto file = std::filesystem::temp_directory_path() / "catoptric_study_test.toml";
-  std::ofstream(file) << text;
-  return file;
+/// Reads a study with that text.
+Study study_of(const std::string& text) {
+  const test::TemporaryFolder folder;
+  test::write_whole(folder / "study.toml", text);
+  return read_study(folder / "study.toml");
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ TEST_CASE("the paper's Table 2 has its eight runs, starts, steps and acceleratio
 TEST_CASE("bad studies are refused with their line") {
   const auto refused = [](const char* text, const char* part) {
     INFO(text);
-    CHECK_THROWS_WITH(read_study(study_file(text)), Catch::Contains(part));
+    CHECK_THROWS_WITH(study_of(text), Catch::Contains(part));
   };
   refused("title = \"x\"", "no runs");
   refused("runs = 3", "no runs");

@@ -9,6 +9,7 @@
 
 #include "base/errors.h"
 #include "report/gnuplot.h"
+#include "support/temporary_folder.h"
 
 using namespace catoptric;
 using namespace catoptric::report;
@@ -18,13 +19,6 @@ namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
-/// A folder of its own that goes away.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("catoptric_figures_" + std::to_string(std::rand()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
-
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t found = 0;
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++found;
@@ -32,14 +26,14 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 std::string drawn(const std::string& script) {
-  const Folder folder;
-  const Drawing drawing = draw(script, folder.path, "figure");
+  const test::TemporaryFolder folder;
+  const Drawing drawing = draw(script, folder.path(), "figure");
   INFO(drawing.sentence);
   INFO(script.substr(0, 2000));
   CHECK(drawing.sentence.empty());
   REQUIRE(drawing.drawn());
-  CHECK(fs::exists(folder.path / "figure.gp"));
-  CHECK(fs::file_size(folder.path / "figure.svg") == drawing.svg_text.size());
+  CHECK(fs::exists(folder.path() / "figure.gp"));
+  CHECK(fs::file_size(folder.path() / "figure.svg") == drawing.svg_text.size());
   CHECK(drawing.svg_text.find("<svg") != std::string::npos);
   CHECK(drawing.svg_text.find("</svg>") != std::string::npos);
   return drawing.svg_text;
@@ -184,8 +178,8 @@ TEST_CASE("lists that do not match are refused") {
 }
 
 TEST_CASE("text from a user is drawn as it stands and never interpreted") {
-  const Folder folder;
-  const std::string witness = (folder.path / "witness").string();
+  const test::TemporaryFolder folder;
+  const std::string witness = (folder.path() / "witness").string();
   const std::vector<std::string> hostile = {
       "it's \"quoted\"",
       "back\\slash \\n \\",

@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "report/child_process.h"
+#include "support/temporary_folder.h"
 
 using namespace catoptric;
 using namespace catoptric::report;
@@ -19,12 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* small_script = "set terminal svg\nplot x\n";
-
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("catoptric_gnuplot_" + std::to_string(std::rand()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-};
 
 /// Sets an environment variable for a while.
 struct Environment {
@@ -41,10 +36,10 @@ void write(const fs::path& path, const std::string& text) { std::ofstream(path) 
 }  // namespace
 
 TEST_CASE("without gnuplot the script stays and the reason is told") {
-  const Folder folder;
-  write(folder.path / "a.svg", "a picture of an earlier run");
-  const Environment path("PATH", folder.path.string());
-  const Drawing drawing = draw(small_script, folder.path, "a");
+  const test::TemporaryFolder folder;
+  write(folder.path() / "a.svg", "a picture of an earlier run");
+  const Environment path("PATH", folder.path().string());
+  const Drawing drawing = draw(small_script, folder.path(), "a");
   CHECK_FALSE(drawing.drawn());
   CHECK_THAT(drawing.sentence, Catch::Contains("gnuplot-nox") && Catch::Contains("a.gp"));
   CHECK(fs::exists(drawing.script));
@@ -52,26 +47,26 @@ TEST_CASE("without gnuplot the script stays and the reason is told") {
 }
 
 TEST_CASE("a gnuplot that fails, hangs or says nothing leaves no picture") {
-  const Folder folder;
-  Drawing drawing = draw("set terminal svg\nplot x\nthis is no command\n", folder.path, "broken");
+  const test::TemporaryFolder folder;
+  Drawing drawing = draw("set terminal svg\nplot x\nthis is no command\n", folder.path(), "broken");
   CHECK_FALSE(drawing.drawn());
   CHECK_THAT(drawing.sentence, Catch::Contains("line 3"));
   CHECK_FALSE(fs::exists(drawing.svg));
-  CHECK_THAT(draw("set terminal svg\n", folder.path, "silent").sentence, Catch::Contains("no picture"));
+  CHECK_THAT(draw("set terminal svg\n", folder.path(), "silent").sentence, Catch::Contains("no picture"));
   GnuplotOptions hurried;
   hurried.time_limit = 300ms;
   const auto begin = std::chrono::steady_clock::now();
-  drawing = draw("set terminal svg\nplot x\npause 60\n", folder.path, "slow", hurried);
+  drawing = draw("set terminal svg\nplot x\npause 60\n", folder.path(), "slow", hurried);
   CHECK_THAT(drawing.sentence, Catch::Contains("longer than 0.3 s"));
   CHECK(std::chrono::steady_clock::now() - begin < 30s);
 }
 
 TEST_CASE("the user's own gnuplot settings and odd folder names do not matter") {
-  const Folder folder;
-  const fs::path odd = folder.path / "- it's \"odd\" ; $(x) `y` é";
+  const test::TemporaryFolder folder;
+  const fs::path odd = folder.path() / "- it's \"odd\" ; $(x) `y` é";
   fs::create_directories(odd);
-  write(folder.path / ".gnuplot", "exit status 7\n");
-  const Environment home("HOME", folder.path.string());
+  write(folder.path() / ".gnuplot", "exit status 7\n");
+  const Environment home("HOME", folder.path().string());
   const Environment locale("LC_ALL", "de_DE.UTF-8");
   const Drawing drawing = draw(small_script, odd, "a");
   CHECK(drawing.sentence.empty());

@@ -2,15 +2,13 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "base/errors.h"
 #include "base/random_stream.h"
 #include "report/csv.h"
 #include "report/text.h"
+#include "support/temporary_folder.h"
 
 using namespace catoptric;
 using namespace catoptric::report;
@@ -52,15 +50,10 @@ TEST_CASE("a row of the wrong length is refused by name") {
 }
 
 TEST_CASE("csv files are written whole") {
-  const auto folder = std::filesystem::temp_directory_path() / "catoptric_table_test";
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder folder;
   write_csv(folder / "a.csv", {{{"x", ""}}, {{1.0}}}, UnitsInHeader::no);
-  std::ifstream file(folder / "a.csv");
-  std::stringstream content;
-  content << file.rdbuf();
-  CHECK(content.str() == "x\n1\n");
-  CHECK_THROWS_AS(write_csv(folder / "none" / "a.csv", {}, UnitsInHeader::no), IoError);
-  std::filesystem::remove_all(folder);
+  CHECK(test::read_whole(folder / "a.csv") == "x\n1\n");
+  CHECK_THROWS_AS(write_csv(folder / "none/a.csv", {}, UnitsInHeader::no), IoError);
 }
 
 TEST_CASE("columns of the terminal table line up, umlauts and superscripts included") {
