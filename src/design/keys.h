@@ -14,6 +14,10 @@ enum class KeyType { text, choice, integer, number, boolean, numbers, points, te
 /// How the number is to be read: lengths are in the scene's unit.
 enum class Quantity { none, length, power_w };
 
+/// Greatest length a scene may name, in its own unit: wide enough for 1 um parts in metres and 100 km fields
+/// in mm.
+inline constexpr double farthest = 1e12;
+
 /// One key. The table of these validates files, fills in defaults, writes scenes out and makes the reference.
 struct Key {
   std::string_view path;  ///< dotted; a star stands for any one name

@@ -1,0 +1,120 @@
+#include "base/tolerance.h"
+#include "design/keys.h"
+
+namespace catoptric::design {
+namespace {
+
+constexpr double far = farthest;
+
+// A table reads as rows.
+// clang-format off
+
+const std::vector<Key>& scene_table() {
+  using enum KeyType;
+  using Q = Quantity;
+  static const std::vector<Key> table{
+      {.path = "title", .type = text, .standard = "\"\"", .meaning = "what the scene is, shown in reports"},
+      {.path = "unit", .type = choice, .choices = {"mm", "cm", "m", "in"}, .standard = "\"mm\"", .meaning = "unit of every length in the scene and in what is written for it"},
+      {.path = "seed", .type = integer, .least = 0, .greatest = 9e15, .standard = "1", .meaning = "key of all random numbers"},
+      {.path = "threads", .type = integer, .least = 0, .greatest = 1024, .standard = "0", .meaning = "threads to use; 0: one per core. Results do not depend on it"},
+
+      {.path = "source.kind", .type = choice, .choices = {"point"}, .standard = "\"point\"", .meaning = "a point that radiates alike in all directions"},
+      {.path = "source.position", .type = numbers, .quantity = Q::length, .least = -far, .greatest = far, .count = 3, .standard = "[0.0, 0.0, 0.0]", .meaning = "x, y, z of the source"},
+      {.path = "source.power", .type = number, .quantity = Q::power_w, .least = 0, .greatest = 1e12, .least_excluded = true, .meaning = "radiant power of the source, W"},
+
+      {.path = "reflector.name", .type = text, .standard = "\"reflector\"", .meaning = "name of the part in exchange files"},
+      {.path = "reflector.degree", .type = integer, .least = 1, .greatest = 9, .meaning = "degree of the generatrix"},
+      {.path = "reflector.points", .type = points, .quantity = Q::length, .least = -far, .greatest = far, .meaning = "control points [r, z] from the apex to the rim"},
+      {.path = "reflector.weights", .type = numbers, .least = least_weight, .greatest = greatest_weight, .meaning = "weights of the control points; all 1 when left out"},
+      {.path = "reflector.knots", .type = numbers, .meaning = "knots, each repeated by its multiplicity; equal clamped spans when left out"},
+      {.path = "reflector.profile", .type = text, .meaning = "IGES or STEP file to take the generatrix from, instead of points"},
+      {.path = "reflector.profile_index", .type = integer, .least = 0, .greatest = 1e6, .meaning = "which of the file's curves, as `catoptric profile` numbers them"},
+      {.path = "reflector.profile_axis", .type = numbers, .count = 6, .meaning = "axis of revolution in the file: a point in mm and a direction"},
+      {.path = "reflector.profile_apex", .type = number, .quantity = Q::length, .least = -far, .greatest = far, .meaning = "z that the file's generatrix begins at; as it lies in the file when left out"},
+      {.path = "reflector.profile_upside_down", .type = boolean, .meaning = "true turns the file's generatrix over, when its axis points the other way"},
+      {.path = "reflector.reflectance", .type = number, .least = 0, .greatest = 1, .standard = "1.0", .meaning = "share of the light that the mirror reflects, specularly"},
+      {.path = "reflector.transmittance", .type = number, .least = 0, .greatest = 1, .standard = "0.0", .meaning = "share of the light that passes straight through; the rest is absorbed"},
+      {.path = "reflector.wall", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "wall thickness of the exported solid; left out: the open optical surface"},
+      {.path = "reflector.wall_side", .type = choice, .choices = {"outside", "inside"}, .meaning = "side of the optical surface on which the wall stands"},
+
+      {.path = "near_field.shape", .type = choice, .choices = {"disc", "rectangle"}, .standard = "\"disc\"", .meaning = "shape of the surface that is to be lit"},
+      {.path = "near_field.center", .type = numbers, .quantity = Q::length, .least = -far, .greatest = far, .count = 3, .standard = "[0.0, 0.0, 0.0]", .meaning = "its centre"},
+      {.path = "near_field.normal", .type = numbers, .least = -far, .greatest = far, .count = 3, .standard = "[0.0, 0.0, 1.0]", .meaning = "direction of the side that is to be lit"},
+      {.path = "near_field.along", .type = numbers, .least = -far, .greatest = far, .count = 3, .meaning = "direction of a rectangle's width"},
+      {.path = "near_field.radius", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "radius of a disc"},
+      {.path = "near_field.width", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "width of a rectangle"},
+      {.path = "near_field.height", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "height of a rectangle"},
+      {.path = "near_field.samples", .type = integer, .least = 1, .greatest = 1e6, .standard = "512", .meaning = "points where the irradiance is asked for, uniform by area"},
+      {.path = "near_field.real", .type = boolean, .standard = "false", .meaning = "true: an object that stops light; false: an invisible register"},
+      {.path = "near_field.reflectance", .type = number, .least = 0, .greatest = 1, .meaning = "share of the light that a real near field reflects, diffusely"},
+      {.path = "near_field.transmittance", .type = number, .least = 0, .greatest = 1, .meaning = "share of the light that passes straight through a real near field"},
+
+      {.path = "target.kind", .type = choice, .choices = {"none", "paraboloid", "reflector", "csv"}, .standard = "\"none\"", .meaning = "where the desired irradiance comes from: eq. 12 and 13 of the paper, the light of a reference reflector, or a table"},
+      {.path = "target.focal_length", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "paraboloid: distance a from vertex to focus; the focus is the source"},
+      {.path = "target.rim_radius", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "paraboloid: radius of its rim, beyond which eq. 12 gives no light; 2 a when left out"},
+      {.path = "target.degree", .type = integer, .least = 1, .greatest = 9, .meaning = "reference reflector: degree"},
+      {.path = "target.points", .type = points, .quantity = Q::length, .least = -far, .greatest = far, .meaning = "reference reflector: control points"},
+      {.path = "target.weights", .type = numbers, .least = least_weight, .greatest = greatest_weight, .meaning = "reference reflector: weights"},
+      {.path = "target.knots", .type = numbers, .meaning = "reference reflector: knots"},
+      {.path = "target.file", .type = text, .meaning = "csv: table with columns x, y, z in the scene's unit and the irradiance in W/m^2; its points replace the near field's samples"},
+      {.path = "target.column", .type = text, .meaning = "csv: name of the column that holds the irradiance"},
+
+      {.path = "model.rung", .type = choice, .choices = {"auto", "photons"}, .standard = "\"auto\"", .meaning = "how the light is computed"},
+      {.path = "model.engine", .type = choice, .choices = {"auto", "meridian", "occt"}, .standard = "\"auto\"", .meaning = "how rays meet the mirror; occt is the slow reference"},
+      {.path = "model.photons", .type = integer, .least = 0, .greatest = 1e10, .standard = "100000", .meaning = "photons emitted for one evaluation"},
+      {.path = "model.neighbours", .type = integer, .least = 1, .greatest = 1e9, .meaning = "photons in one estimate (the paper's N); not together with kernel_radius"},
+      {.path = "model.kernel_radius", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "fixed radius of the kernel; a tenth of the near field's half-width when both are left out"},
+      {.path = "model.kernel", .type = choice, .choices = {"silverman", "epanechnikov", "cone", "gaussian", "constant"}, .standard = "\"silverman\"", .meaning = "weight of a photon by its distance"},
+      {.path = "model.sampler", .type = choice, .choices = {"random", "sobol"}, .standard = "\"sobol\"", .meaning = "independent random photons, or Owen-scrambled Sobol points"},
+      {.path = "model.replicates", .type = integer, .least = 2, .greatest = 1000, .standard = "8", .meaning = "independent repetitions behind every reported figure, which give its noise"},
+      {.path = "model.interactions", .type = integer, .least = 1, .greatest = 1e6, .standard = "1000", .meaning = "a photon is stopped after so many meetings with surfaces"},
+
+      {.path = "search.method", .type = choice, .choices = {"hooke-jeeves"}, .standard = "\"hooke-jeeves\"", .meaning = "how better mirrors are looked for"},
+      {.path = "search.metric", .type = choice, .choices = {"rmse", "relative-rmse"}, .standard = "\"rmse\"", .meaning = "what is made small: eq. 7 in W/m^2, or the same divided by the target's root mean square"},
+      {.path = "search.acceleration", .type = number, .least = 0, .greatest = 1000, .standard = "1.0", .meaning = "factor alpha of the pattern step"},
+      {.path = "search.reduction", .type = number, .least = 0, .greatest = 0.99, .least_excluded = true, .standard = "0.5", .meaning = "the step is multiplied by it after a failed iteration"},
+      {.path = "search.smallest_step", .type = number, .least = 0, .greatest = 1, .least_excluded = true, .standard = "0.001", .meaning = "the search ends when the step is below this share of the first"},
+      {.path = "search.most_evaluations", .type = integer, .least = 1, .greatest = 1e9, .standard = "2000", .meaning = "the search ends after so many evaluations"},
+      {.path = "search.most_iterations", .type = integer, .least = 1, .greatest = 1e9, .standard = "1000", .meaning = "the search ends after so many iterations"},
+
+      {.path = "variables.*.start", .type = number, .least = -far, .greatest = far, .meaning = "first value; the reflector's own when left out"},
+      {.path = "variables.*.step", .type = number, .least = 0, .greatest = far, .least_excluded = true, .meaning = "first step"},
+      {.path = "variables.*.lower", .type = number, .least = -far, .greatest = far, .meaning = "least value allowed"},
+      {.path = "variables.*.upper", .type = number, .least = -far, .greatest = far, .meaning = "greatest value allowed"},
+
+      {.path = "landscape.variables", .type = texts, .meaning = "one or two variables over which the objective is drawn"},
+      {.path = "landscape.lower", .type = numbers, .meaning = "least value of each"},
+      {.path = "landscape.upper", .type = numbers, .meaning = "greatest value of each"},
+      {.path = "landscape.steps", .type = numbers, .least = 2, .greatest = 10000, .meaning = "how many values of each"},
+      {.path = "landscape.greatest", .type = number, .least = 0, .least_excluded = true, .meaning = "objective above which the drawn surface is cut off; the table keeps all"},
+
+      {.path = "export.unit", .type = choice, .choices = {"mm", "cm", "m", "in"}, .standard = "\"mm\"", .meaning = "unit of length inside exchange files"},
+      {.path = "export.step_schema", .type = choice, .choices = {"ap203", "ap214", "ap242"}, .standard = "\"ap214\"", .meaning = "STEP application protocol"},
+      {.path = "export.iges_mode", .type = choice, .choices = {"faces", "brep"}, .standard = "\"faces\"", .meaning = "IGES entities: trimmed surfaces (144) or boundary representation (186)"},
+  };
+  return table;
+}
+
+const std::vector<Key>& study_table() {
+  using enum KeyType;
+  static const std::vector<Key> table{
+
+      {.path = "title", .type = text, .meaning = "what the study shows"},
+      {.path = "command", .type = choice, .choices = {"design", "simulate"}, .meaning = "what is done with each run's scene"},
+      {.path = "scene", .type = text, .meaning = "the scene that runs vary, relative to the study's folder"},
+      {.path = "runs.name", .type = text, .meaning = "the run's name; also its folder"},
+      {.path = "runs.scene", .type = text, .meaning = "a scene of the run's own"},
+      {.path = "runs.set", .type = text, .meaning = "table of scene keys and the values they take in this run"},
+      {.path = "runs.reference", .type = text, .meaning = "table of figures from elsewhere, printed beside ours under the same names"},
+  };
+  return table;
+}
+
+// clang-format on
+
+}  // namespace
+
+std::span<const Key> scene_keys() { return scene_table(); }
+std::span<const Key> study_keys() { return study_table(); }
+
+}  // namespace catoptric::design
