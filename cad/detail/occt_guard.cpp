@@ -80,4 +80,6 @@ void ExchangeSession::set(const std::string& name, int value) {
 #ifdef __SANITIZE_ADDRESS__
 /// OCCT's exchange tables and STEP writer forget some 4 kB; what our own code forgets is still found.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libTK"; }
+/// Quiet runs print nothing, sanitized or not.
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
 #endif
