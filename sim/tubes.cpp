@@ -1,0 +1,120 @@
+#include "sim/tubes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/tolerance.h"
+#include "base/units.h"
+#include "sim/tube_kernel.h"
+#include "sim/tube_map.h"
+#include "sim/tube_sum.h"
+
+namespace catoptric::sim {
+namespace {
+
+void check(const PointSource& source, const Profile& profile, const Material& mirror,
+           const TubesOptions& options) {
+  const Vector3 at = source.position_mm();
+  if (std::hypot(at.x(), at.y()) > Tolerance::for_scale(profile.diagonal_mm()).length_mm)
+    throw InputError(
+        {"the source is off the axis", "tubes", "tubes lie in one meridian plane", "take the photon rung"});
+  if (auto defect = find_defect(mirror)) {
+    defect->where = "mirror";
+    throw InputError(std::move(*defect));
+  }
+  if (!(options.kernel_radius_mm >= 0 && std::isfinite(options.kernel_radius_mm)))
+    throw InputError({fmt::format("kernel radius of {} mm", options.kernel_radius_mm), "tubes",
+                      "it is positive, or 0 for the pointwise field", ""});
+  if (options.most_rays < 100)
+    throw InputError({fmt::format("at most {} rays", options.most_rays), "tubes",
+                      "the mirror must be looked over once", "allow 1000"});
+}
+
+/// Paths fainter than this are given up: all of them together, landing in one place, make a hundredth of the
+/// tolerance. Pointwise, below a rounding of the whole.
+double least_weight(double power_w, const TubesOptions& options) {
+  constexpr double rounding = 1e-16;
+  if (!(options.kernel_radius_mm > 0) || !(power_w > 0)) return rounding;
+  const double weight =
+      0.01 * options.tolerance_w_per_mm2 / (power_w * kernel_peak_per_mm2(options.kernel_radius_mm));
+  return std::clamp(weight, rounding, 0.01);
+}
+
+}  // namespace
+
+TubesField tubes_field(const PointSource& source, const Profile& profile, const Material& mirror,
+                       const FieldPlane& plane, std::span<const double> radii_mm,
+                       const TubesOptions& options) {
+  check(source, profile, mirror, options);
+  TubesField field;
+  field.irradiance.assign(radii_mm.size(), 0.0);
+  if (radii_mm.empty() || source.power_w() <= 0) return field;
+
+  std::vector<std::size_t> order(radii_mm.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return radii_mm[a] < radii_mm[b]; });
+  std::vector<double> radii;
+  std::vector<std::size_t> places(radii_mm.size());
+  for (const std::size_t i : order) {  // each radius once: grids have many alike
+    if (radii.empty() || radii_mm[i] != radii.back()) radii.push_back(radii_mm[i]);
+    places[i] = radii.size() - 1;
+  }
+
+  const double power_w = source.power_w(), h = options.kernel_radius_mm;
+  const double source_z = source.position_mm().z();
+  const TubeTracer tracer(profile, source_z, plane, mirror,
+                          {options.most_interactions, least_weight(power_w, options)});
+  // Of radius 0 alone no width can be taken.
+  const double r_max = std::max(radii.back(), Tolerance::for_scale(profile.diagonal_mm()).lift_mm);
+  const TubeMap map = make_tubes(tracer, emission_breaks(profile, source_z), power_w,
+                                 {r_max, h, options.tolerance_w_per_mm2, options.most_rays});
+  field.error_w_per_mm2 = map.error_w_per_mm2;
+  field.rays = map.rays;
+  field.landed_w = map.landed_w;
+  field.cut_off_w = map.cut_off_w;
+
+  std::vector<double> values(radii.size(), 0.0);
+  if (h > 0) {
+    for (const Tube& tube : map.tubes) add_smoothed(tube, power_w, h, radii, values);
+  } else {
+    const PointwiseSum sum = add_pointwise(map, tracer, power_w, radii, values);
+    field.error_w_per_mm2 = sum.error_w_per_mm2;
+    field.rays += sum.rays;
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) field.irradiance[i] = values[places[i]];
+  return field;
+}
+
+TubesField tubes_field(const Scene& scene, std::span<const FieldSample> samples,
+                       const TubesOptions& options) {
+  const auto* source = dynamic_cast<const PointSource*>(&scene.source);
+  if (const auto objection = tubes_objection(scene.source, scene.reflector.profile(), scene.near_field))
+    throw InputError({"the rung tubes does not fit the scene", "", *objection, "take the photon rung"});
+  std::vector<double> radii;
+  radii.reserve(samples.size());
+  for (const FieldSample& sample : samples)
+    radii.push_back(std::hypot(sample.point_mm.x(), sample.point_mm.y()));
+  const FieldPlane plane{scene.near_field.center_mm().z(), scene.near_field.normal().z() > 0};
+  return tubes_field(*source, scene.reflector.profile(), scene.mirror, plane, radii, options);
+}
+
+std::optional<std::string> tubes_objection(const Source& source, const Profile& profile,
+                                           const NearField& near_field) {
+  const Tolerance tolerance = Tolerance::for_scale(profile.diagonal_mm());
+  if (dynamic_cast<const PointSource*>(&source) == nullptr) return "the source is not a point";
+  const Vector3 at = source.position_mm();
+  const double off_mm = std::hypot(at.x(), at.y());
+  if (off_mm > tolerance.length_mm) return fmt::format("the source is {} mm off the axis", off_mm);
+  const Vector3& normal = near_field.normal();
+  if (std::hypot(normal.x(), normal.y()) > tolerance.angle_rad)
+    return fmt::format("the near field is tilted against the axis by {} rad",
+                       std::atan2(std::hypot(normal.x(), normal.y()), std::abs(normal.z())));
+  if (near_field.material()) return "the near field is a real object, which stops or scatters light";
+  return std::nullopt;
+}
+
+}  // namespace catoptric::sim
