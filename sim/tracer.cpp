@@ -1,7 +1,6 @@
 #include "sim/tracer.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -12,31 +11,26 @@
 #include "base/profile.h"
 #include "base/random_stream.h"
 #include "base/tolerance.h"
+#include "sim/flight_counts.h"
+#include "sim/opening.h"
 #include "sim/projection_map.h"
 #include "sim/scatter.h"
 
 namespace catoptric::sim {
 namespace {
 
-/// Photons of one task. Fixed, since the joined result must not depend on the number of threads; small, so
-/// that even ten thousand photons feed several cores.
-constexpr std::uint64_t chunk_size = 1024;
-
-/// How a photon's path ended.
-enum class Fate { missed, absorbed, received, escaped, cut_off };
-
 struct ChunkResult {
   std::vector<Crossing> crossings;
-  std::array<std::uint64_t, 5> ended{};  ///< photons by Fate
-  std::uint64_t met_mirror = 0, interactions = 0;
+  FlightCounts counts;
 };
 
-/// What every task shares.
+/// What every task of a set shares.
 struct Flight {
   const Scene& scene;
   const PhotonOptions& options;
-  ProjectionMap map;
-  RecordedArea area;
+  const ProjectionMap& map;
+  const RecordedArea& area;
+  const std::optional<Opening>& opening;
   std::uint64_t key;
   double lift_mm;
 };
@@ -52,8 +46,9 @@ class PhotonTracer {
     const auto numbers = EmissionNumbers::starting_at(flight_.options.sampler, flight_.key, first);
     for (std::uint64_t photon = first; photon < last; ++photon) {
       const Fate fate = follow(photon, flight_.scene.source.emit(flight_.map, numbers->next()));
-      ++result_.ended[static_cast<std::size_t>(fate)];
+      ++result_.counts.ended[static_cast<std::size_t>(fate)];
     }
+    result_.counts.stored = result_.crossings.size();
     return std::move(result_);
   }
 
@@ -79,7 +74,7 @@ class PhotonTracer {
   Fate follow(std::uint64_t number, const Ray& ray) {
     Photon photon(number, ray, flight_.key);
     for (;;) {
-      const auto hit = probe_->first_hit(photon.ray, flight_.lift_mm);
+      const auto hit = next_hit(photon);
       const auto arrival = meet_plane(photon, hit ? hit->distance_mm : HUGE_VAL);
       const bool stops = arrival && field_.material() && field_.contains(arrival->plane_mm);
       if (arrival && photon.touched) record(photon, *arrival);
@@ -87,13 +82,19 @@ class PhotonTracer {
         return !photon.touched ? Fate::missed : photon.received ? Fate::received : Fate::escaped;
       if (photon.interactions == flight_.options.most_interactions) return Fate::cut_off;
       ++photon.interactions;
-      ++result_.interactions;
+      ++result_.counts.interactions;
       if (stops) {
         if (!leave_field(photon, *arrival)) return photon.touched ? Fate::received : Fate::missed;
       } else if (!leave_mirror(photon, *hit)) {
         return Fate::absorbed;
       }
     }
+  }
+
+  std::optional<Hit> next_hit(const Photon& photon) {
+    const bool starts_on_mirror = photon.touched && !photon.on_field;
+    if (starts_on_mirror && flight_.opening && flight_.opening->lets_out(photon.ray)) return std::nullopt;
+    return probe_->first_hit(photon.ray, flight_.lift_mm);
   }
 
   /// Where the photon's flight meets the near field's plane before `reach_mm`. The plane belongs to the
@@ -118,7 +119,7 @@ class PhotonTracer {
 
   /// @out false when the photon is absorbed
   bool leave_mirror(Photon& photon, const Hit& hit) {
-    if (!photon.touched) ++result_.met_mirror;
+    if (!photon.touched) ++result_.counts.met_mirror;
     photon.touched = true;
     photon.on_field = false;
     photon.ray.origin_mm = hit.point_mm;
@@ -154,7 +155,9 @@ class PhotonTracer {
   ChunkResult result_;
 };
 
-void check(const Scene& scene, const PhotonOptions& options) {
+}  // namespace
+
+void check(const PhotonOptions& options) {
   if (options.photons > most_photons)
     throw InputError({fmt::format("{} photons", options.photons), "",
                       fmt::format("one set holds at most {}", most_photons),
@@ -162,67 +165,67 @@ void check(const Scene& scene, const PhotonOptions& options) {
   if (options.most_interactions < 1)
     throw InputError({fmt::format("most_interactions is {}", options.most_interactions), "",
                       "a photon must be allowed to meet the mirror once", "1000 is usual"});
+}
+
+ProjectionMap emission_map(const Scene& scene) {
   if (auto defect = find_defect(scene.mirror)) {
     defect->where = "mirror";
     throw InputError(std::move(*defect));
   }
-}
-
-/// A real near field that reflects may light the mirror from anywhere; else only the mirror's own directions
-/// matter (transmission goes straight on, so it needs no others).
-ProjectionMap map_for(const Scene& scene) {
   const auto& material = scene.near_field.material();
   if (material && material->reflectance > 0) return ProjectionMap::whole_sphere();
   return ProjectionMap::towards(scene.reflector.profile(), scene.source.position_mm());
 }
 
-std::vector<ChunkResult> trace_chunks(const Flight& flight) {
-  const std::uint64_t photons = flight.options.photons;
-  std::vector<ChunkResult> chunks((photons + chunk_size - 1) / chunk_size);
-  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
-    const std::uint64_t first = i * chunk_size;
-    chunks[i] = PhotonTracer(flight).trace(first, std::min(first + chunk_size, photons));
-  });
-  return chunks;
+struct PhotonFlights::Parts {
+  Scene scene;
+  RecordedArea area;
+  ProjectionMap map;
+  std::optional<Opening> opening;
+  double lift_mm;
+};
+
+PhotonFlights::PhotonFlights(const Scene& scene, const RecordedArea& area)
+    : parts_(new Parts{scene, area, emission_map(scene), Opening::of(scene.reflector.profile()),
+                       Tolerance::for_scale(scene.reflector.profile().diagonal_mm()).lift_mm}) {}
+PhotonFlights::~PhotonFlights() = default;
+
+std::uint64_t PhotonFlights::chunks(std::uint64_t photons) {
+  return photons / photons_of_a_chunk + (photons % photons_of_a_chunk != 0);
 }
 
-}  // namespace
+FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossings& take) const {
+  check(options);
+  const Flight flight{parts_->scene,  options,         parts_->map,
+                      parts_->area,   parts_->opening, photon_key(options.seed, options.stream),
+                      parts_->lift_mm};
+  const std::uint64_t photons = options.photons;
+  SharedCounts counts;
+  tbb::parallel_for(std::uint64_t{0}, chunks(photons), [&](std::uint64_t i) {
+    const std::uint64_t first = i * photons_of_a_chunk;
+    ChunkResult chunk = PhotonTracer(flight).trace(first, std::min(first + photons_of_a_chunk, photons));
+    counts.add(chunk.counts);
+    take(i, std::move(chunk.crossings));
+  });
+
+  return counts.totals(photons, parts_->scene.source.power_into_w(parts_->map));
+}
 
 TracedPhotons trace_photons(const Scene& scene, const PhotonOptions& options, double margin_mm) {
-  check(scene, options);
-  const Flight flight{scene,
-                      options,
-                      map_for(scene),
-                      RecordedArea::about(scene.near_field, margin_mm),
-                      photon_key(options.seed, options.stream),
-                      Tolerance::for_scale(scene.reflector.profile().diagonal_mm()).lift_mm};
   TracedPhotons traced;
-  traced.area = flight.area;
-  traced.energy.emitted_w = options.photons > 0 ? scene.source.power_into_w(flight.map) : 0;
-  traced.photon_power_w =
-      options.photons > 0 ? traced.energy.emitted_w / static_cast<double>(options.photons) : 0;
-
-  const std::vector<ChunkResult> chunks = trace_chunks(flight);
-  std::array<std::uint64_t, 5> ended{};
-  for (const ChunkResult& chunk : chunks) {
-    traced.counts.met_mirror += chunk.met_mirror;
-    traced.counts.interactions += chunk.interactions;
-    traced.counts.stored += chunk.crossings.size();
-    for (std::size_t i = 0; i < ended.size(); ++i) ended[i] += chunk.ended[i];
-  }
-  traced.counts.emitted = options.photons;
+  traced.area = RecordedArea::about(scene.near_field, margin_mm);
+  check(options);
+  std::vector<std::vector<Crossing>> chunks(PhotonFlights::chunks(options.photons));
+  const FlightTotals totals =
+      PhotonFlights(scene, traced.area).fly(options, [&](std::uint64_t i, std::vector<Crossing>&& crossings) {
+        chunks[i] = std::move(crossings);
+      });
+  traced.photon_power_w = totals.photon_power_w;
+  traced.energy = totals.energy;
+  traced.counts = totals.counts;
   traced.crossings.reserve(traced.counts.stored);
-  for (const ChunkResult& chunk : chunks)
-    traced.crossings.insert(traced.crossings.end(), chunk.crossings.begin(), chunk.crossings.end());
-
-  const auto power_of = [&](Fate fate) {
-    return static_cast<double>(ended[static_cast<std::size_t>(fate)]) * traced.photon_power_w;
-  };
-  traced.energy.missed_w = power_of(Fate::missed);
-  traced.energy.absorbed_w = power_of(Fate::absorbed);
-  traced.energy.received_w = power_of(Fate::received);
-  traced.energy.escaped_w = power_of(Fate::escaped);
-  traced.energy.cut_off_w = power_of(Fate::cut_off);
+  for (const auto& chunk : chunks)
+    traced.crossings.insert(traced.crossings.end(), chunk.begin(), chunk.end());
   return traced;
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "sim/emission.h"
+#include "sim/projection_map.h"
 #include "sim/recorded_area.h"
 #include "sim/scene.h"
 
@@ -54,6 +57,50 @@ struct TracedPhotons {
   double photon_power_w = 0;
   EnergyLedger energy;
   PhotonCounts counts;
+};
+
+/// Photons of one task. Fixed, since the joined result must not depend on the number of threads; small, so
+/// that even ten thousand photons feed several cores.
+inline constexpr std::uint64_t photons_of_a_chunk = 1024;
+
+/// @fails InputError for more than most_photons photons, most_interactions below 1
+void check(const PhotonOptions& options);
+
+/// Where photons are sent: a real near field that reflects may light the mirror from anywhere; else only the
+/// mirror's own directions matter (transmission goes straight on, so it needs no others).
+/// @fails InputError for a bad mirror material
+ProjectionMap emission_map(const Scene& scene);
+
+/// What is known of a set of photons after their flight, without the crossings.
+struct FlightTotals {
+  double photon_power_w = 0;
+  EnergyLedger energy;
+  PhotonCounts counts;
+};
+
+/// Takes the crossings of one chunk of photons, in the order of their numbers; called for every chunk once,
+/// from several threads and in any order.
+using TakeCrossings = std::function<void(std::uint64_t chunk, std::vector<Crossing>&& crossings)>;
+
+/// Photons ready to fly: what does not depend on their numbers is prepared once for any number of sets, and
+/// the crossings are handed over as they come, so that memory need not grow with the photons. After the
+/// mirror no intersection is looked for where its shape excludes one (see Opening).
+class PhotonFlights {
+ public:
+  /// @in    what the scene borrows must outlive this
+  /// @fails InputError for a bad mirror material
+  PhotonFlights(const Scene& scene, const RecordedArea& area);
+  ~PhotonFlights();
+
+  /// Chunks of a set of so many photons.
+  static std::uint64_t chunks(std::uint64_t photons);
+
+  /// @fails InputError for more than most_photons photons, most_interactions below 1
+  FlightTotals fly(const PhotonOptions& options, const TakeCrossings& take) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
 /// First pass of the photon map: emission towards the mirror, Russian roulette at every surface, crossings of

@@ -1,0 +1,239 @@
+#include "sim/rings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <memory>
+
+#include "base/profile.h"
+#include "base/tolerance.h"
+#include "base/units.h"
+#include "sim/plane_flights.h"
+#include "sim/ring_bandwidth.h"
+#include "sim/ring_edges.h"
+#include "sim/ring_store.h"
+
+namespace catoptric::sim {
+namespace {
+
+/// Farthest point of the near field from the axis, in its plane.
+double cover_radius_mm(const NearField& field) {
+  const Vector2 axis = field.to_plane({0, 0, field.center_mm().z()});
+  if (field.shape() == NearField::Shape::disc) return axis.norm() + field.half_width_mm();
+  return std::hypot(std::abs(axis.x()) + field.half_width_mm(), std::abs(axis.y()) + field.half_height_mm());
+}
+
+[[noreturn]] void refuse(std::string what, std::string why, std::string hint) {
+  throw InputError({std::move(what), "rings", std::move(why), std::move(hint)});
+}
+
+void check(const Scene& scene, std::span<const double> radii_mm, const RingsOptions& options) {
+  if (const auto objection = rings_objection(scene))
+    refuse("the rung \"rings\" is not valid for this scene", *objection, "use the rung \"photons\"");
+  if (options.replicates < 1)
+    refuse("0 replicates", "the estimate is the mean of the replicates", "4 tell the noise");
+  if (options.photons.photons > most_photons)
+    refuse(fmt::format("{} photons", options.photons.photons),
+           fmt::format("at most {} are counted", most_photons), "average runs of several streams");
+  if (options.bandwidth_mm2 && !(*options.bandwidth_mm2 > 0 && std::isfinite(*options.bandwidth_mm2)))
+    refuse(fmt::format("bandwidth of {} mm^2", *options.bandwidth_mm2), "a bandwidth is positive and finite",
+           "leave it out to have it chosen");
+  const double most_mm = cover_radius_mm(scene.near_field) * (1 + Tolerance::for_scale(1).length_mm);
+  for (double radius : radii_mm)
+    if (!(radius >= 0 && radius <= most_mm))
+      refuse(fmt::format("radius of {} mm", radius),
+             fmt::format("the near field reaches from the axis to {} mm", most_mm), "ask inside the field");
+  if (options.edges_mm)
+    for (double radius : *options.edges_mm)
+      if (!(radius > 0 && std::isfinite(radius)))
+        refuse(fmt::format("edge at a radius of {} mm", radius), "an edge's radius is positive and finite",
+               "leave the edges out to have them found");
+}
+
+/// The recorded range of r^2, cut at the jumps.
+std::vector<double> cuts_for(const Scene& scene, const RingsOptions& options, double end) {
+  std::vector<double> squares;
+  if (options.edges_mm)
+    for (double radius : *options.edges_mm) squares.push_back(radius * radius);
+  else
+    squares = edge_landing_squares(scene);
+  std::sort(squares.begin(), squares.end());
+  // Nearer than this two cuts are one: the segment between would hold no photon in 1e9.
+  const double apart = 1e-9 * end;
+  std::vector<double> cuts{0.0};
+  for (double s : squares)
+    if (s > cuts.back() + apart && s < end - apart) cuts.push_back(s);
+  cuts.push_back(end);
+  return cuts;
+}
+
+std::size_t bins_for(const RingsOptions& options, std::uint64_t photons_per_set) {
+  constexpr std::size_t fewest = 1024, most = std::size_t{1} << 17;
+  if (options.bins) return std::clamp<std::size_t>(*options.bins, 1, most);
+  return std::bit_ceil(std::clamp<std::size_t>(photons_per_set, fewest, most));
+}
+
+/// The sets of photons in flight and their landing.
+class Sets {
+ public:
+  Sets(const Scene& scene, const RingsOptions& options) : scene_(scene), options_(options) {
+    const std::uint64_t photons = options.photons.photons;
+    const std::uint64_t sets = std::max<std::uint64_t>(1, std::min(options.replicates, photons));
+    for (std::uint64_t i = 0; i < sets; ++i)
+      photons_.push_back(photons / sets + (i < photons % sets ? 1 : 0));
+  }
+
+  std::unique_ptr<RingStore> store(std::vector<double> cuts) const {
+    if (options_.storage == RingStorage::counted)
+      return std::make_unique<CountedRings>(std::move(cuts), photons_.size(),
+                                            bins_for(options_, photons_[0]));
+    std::vector<std::uint64_t> chunks;
+    for (std::uint64_t photons : photons_) chunks.push_back(PhotonFlights::chunks(photons));
+    return std::make_unique<SortedRings>(std::move(cuts), photons_.size(), chunks);
+  }
+
+  /// Lets all sets fly and lists the power of a photon of each.
+  std::vector<double> fly(RingStore& store, double reach_mm, RingsField& field) const {
+    std::vector<double> powers;
+    const auto each_set = [&](const auto& fly_set) {
+      for (std::size_t set = 0; set < photons_.size(); ++set) {
+        PhotonOptions options = options_.photons;
+        options.photons = photons_[set];
+        options.seed = photon_key(options_.photons.seed, options_.photons.stream);
+        options.stream = set;
+        const FlightTotals totals = fly_set(options, set);
+        add(field, totals);
+        powers.push_back(totals.photon_power_w);
+      }
+    };
+    if (options_.in_plane && PlaneFlights::possible(scene_))
+      fly_in_plane(store, reach_mm, each_set);
+    else
+      fly_in_space(store, reach_mm, each_set);
+    store.close();
+    return powers;
+  }
+
+ private:
+  template <typename EachSet>
+  void fly_in_plane(RingStore& store, double reach_mm, const EachSet& each_set) const {
+    const PlaneFlights flights(scene_, reach_mm);
+    each_set([&](const PhotonOptions& options, std::size_t set) {
+      return flights.fly(
+          options, options_.front,
+          [&](std::uint64_t chunk, const std::vector<double>& squares) { store.add(set, chunk, squares); });
+    });
+  }
+
+  template <typename EachSet>
+  void fly_in_space(RingStore& store, double reach_mm, const EachSet& each_set) const {
+    const Vector2 axis = scene_.near_field.to_plane({0, 0, scene_.near_field.center_mm().z()});
+    const double out_mm =
+        scene_.near_field.material() ? scene_.near_field.half_width_mm() : reach_mm + axis.norm();
+    const PhotonFlights flights(scene_, {NearField::Shape::disc, out_mm, out_mm});
+    each_set([&](const PhotonOptions& options, std::size_t set) {
+      return flights.fly(options, [&](std::uint64_t chunk, std::vector<Crossing>&& crossings) {
+        std::vector<double> squares;
+        squares.reserve(crossings.size());
+        for (const Crossing& crossing : crossings)
+          if (crossing.from_front() == options_.front)
+            squares.push_back((crossing.plane_mm() - axis).squaredNorm());
+        store.add(set, chunk, squares);
+      });
+    });
+  }
+
+  void add(RingsField& field, const FlightTotals& totals) const {
+    const double share = 1 / static_cast<double>(photons_.size());
+    field.energy.emitted_w += share * totals.energy.emitted_w;
+    field.energy.missed_w += share * totals.energy.missed_w;
+    field.energy.absorbed_w += share * totals.energy.absorbed_w;
+    field.energy.received_w += share * totals.energy.received_w;
+    field.energy.escaped_w += share * totals.energy.escaped_w;
+    field.energy.cut_off_w += share * totals.energy.cut_off_w;
+    field.counts.emitted += totals.counts.emitted;
+    field.counts.met_mirror += totals.counts.met_mirror;
+    field.counts.stored += totals.counts.stored;
+    field.counts.interactions += totals.counts.interactions;
+  }
+
+  const Scene& scene_;
+  const RingsOptions& options_;
+  std::vector<std::uint64_t> photons_;
+};
+
+void estimate(const RingStore& store, std::span<const double> powers, std::span<const double> radii_mm,
+              const RingsOptions& options, RingsField& field) {
+  RingDensities densities;
+  for (double radius : radii_mm) {
+    store.estimate(std::min(radius * radius, store.end()), options.kernel, field.bandwidth_mm2, densities);
+    const RingEstimate at = ring_estimate(densities, powers);
+    field.bias.push_back(at.second - at.fourth);
+    field.irradiance.push_back(std::max(0.0, at.second));
+    field.noise.push_back(std::sqrt(at.second_variance));
+    field.poisson_noise.push_back(std::sqrt(at.second_poisson));
+    field.debiased.push_back(std::max(0.0, at.fourth));
+    field.debiased_noise.push_back(std::sqrt(at.fourth_variance));
+  }
+}
+
+}  // namespace
+
+double RingsField::kernel_radius_mm() const { return std::sqrt(2 * bandwidth_mm2); }
+
+double RingsField::half_interval(std::size_t index, double level) const {
+  const double tail = 0.5 * (1 - level);
+  if (replicates < 2)
+    return debiased_noise[index] *
+           boost::math::quantile(boost::math::complement(boost::math::normal(), tail));
+  const boost::math::students_t student(static_cast<double>(replicates - 1));
+  return debiased_noise[index] * boost::math::quantile(boost::math::complement(student, tail));
+}
+
+std::optional<std::string> rings_objection(const Scene& scene) {
+  const Vector3 source = scene.source.position_mm();
+  const NearField& field = scene.near_field;
+  const Tolerance tolerance = Tolerance::for_scale(scene.reflector.profile().diagonal_mm());
+  const double aside_mm = std::hypot(source.x(), source.y());
+  if (aside_mm > tolerance.length_mm)
+    return fmt::format("the source is {:.4g} mm off the axis, so the light differs from azimuth to azimuth",
+                       aside_mm);
+  const double tilt_rad = std::asin(std::min(1.0, field.normal().head<2>().norm()));
+  if (tilt_rad > tolerance.angle_rad)
+    return fmt::format("the near field is tilted by {:.4g} degrees against a plane across the axis",
+                       tilt_rad * 180 / pi);
+  if (!field.material()) return std::nullopt;
+  if (field.shape() != NearField::Shape::disc)
+    return "the near field is a real rectangle, which casts a shadow that differs from azimuth to azimuth";
+  const double off_mm = field.center_mm().head<2>().norm();
+  if (off_mm > tolerance.length_mm)
+    return fmt::format("the near field is a real disc with its centre {:.4g} mm off the axis", off_mm);
+  return std::nullopt;
+}
+
+RingsField rings_field(const Scene& scene, std::span<const double> radii_mm, const RingsOptions& options) {
+  check(scene, radii_mm, options);
+  const double cover_mm = cover_radius_mm(scene.near_field), cover = cover_mm * cover_mm;
+  // Estimates at the field's edge look beyond it; a bandwidth to be chosen is narrower than a quarter.
+  const double margin = options.bandwidth_mm2 ? std::min(*options.bandwidth_mm2, cover) : 0.25 * cover;
+  const double end = scene.near_field.material() ? cover : cover + margin;
+  const Sets sets(scene, options);
+  RingsField field;
+  const auto cuts = cuts_for(scene, options, end);
+  for (std::size_t i = 1; i + 1 < cuts.size(); ++i) field.edges_mm.push_back(std::sqrt(cuts[i]));
+  const auto store = sets.store(cuts);
+  const auto powers = sets.fly(*store, std::sqrt(end), field);
+  field.replicates = options.photons.photons > 0 ? powers.size() : 0;
+  field.bandwidth_mm2 = options.bandwidth_mm2 ? *options.bandwidth_mm2
+                                              : choose_bandwidth(*store, powers, options.kernel, cover);
+  store->prepare(field.bandwidth_mm2);
+  estimate(*store, powers, radii_mm, options, field);
+  field.memory_bytes = store->memory_bytes();
+  return field;
+}
+
+}  // namespace catoptric::sim
