@@ -1,6 +1,8 @@
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <IFSelect_ReturnStatus.hxx>
 #include <Interface_Static.hxx>
+#include <STEPConstruct_AP203Context.hxx>
+#include <STEPControl_ActorWrite.hxx>
 #include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
 #include <StepBasic_CalendarDate.hxx>
@@ -8,11 +10,13 @@
 #include <StepBasic_LocalTime.hxx>
 #include <StepBasic_Organization.hxx>
 #include <StepBasic_Person.hxx>
+#include <StepBasic_PersonAndOrganization.hxx>
 #include <StepBasic_Product.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <XSControl_Controller.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <cstdlib>
 #include <fstream>
@@ -23,6 +27,16 @@
 
 namespace catoptric::cad::detail {
 namespace {
+
+STEPConstruct_ContextTool& context_of(STEPControl_ActorWrite& actor);
+
+/// Opens the actor's private context by explicit instantiation, where the language does not check access
+/// (C++20 [temp.spec]/6). See name_person for the crash that leaves no other way.
+template <STEPConstruct_ContextTool STEPControl_ActorWrite::*member>
+struct ContextAccess {
+  friend STEPConstruct_ContextTool& context_of(STEPControl_ActorWrite& actor) { return actor.*member; }
+};
+template struct ContextAccess<&STEPControl_ActorWrite::myContext>;
 
 Handle(TCollection_HAsciiString) text(const std::string& content) {
   return new TCollection_HAsciiString(content.c_str());
@@ -90,6 +104,23 @@ void label_entities(const Handle(StepData_StepModel) & model, const FileLabels& 
   }
 }
 
+/// Gives AP203 its person. Left alone OCCT makes one from the login name and the machine's network address,
+/// and dereferences null where that name does not resolve (a bare chroot: OSD_Host::InternetAddress,
+/// OCCT 7.6.3).
+void name_person(STEPControl_Writer& writer, const FileLabels& labels) {
+  const auto actor = Handle(STEPControl_ActorWrite)::DownCast(writer.WS()->NormAdaptor()->ActorWrite());
+  if (actor.IsNull())
+    throw CadError({"OpenCASCADE has no STEP writer", "", "", "install libocct-data-exchange-7.6"});
+  const Handle(StepBasic_Person) person = new StepBasic_Person;
+  person->Init(text(labels.author), true, text(labels.author), true, text(""), false, nullptr, false, nullptr,
+               false, nullptr);
+  const Handle(StepBasic_Organization) firm = new StepBasic_Organization;
+  firm->Init(true, text(labels.organization), text(labels.organization), text(""));
+  const Handle(StepBasic_PersonAndOrganization) both = new StepBasic_PersonAndOrganization;
+  both->Init(person, firm);
+  context_of(*actor).AP203Context().SetDefaultPersonAndOrganization(both);
+}
+
 void label_header(const Handle(StepData_StepModel) & model, const FileLabels& labels) {
   APIHeaderSection_MakeHeader header(model);
   header.SetName(text(labels.file_name));
@@ -129,6 +160,7 @@ void write_step(const TopoDS_Shape& shape, const std::filesystem::path& path, co
   session.set("write.precision.mode", 0);
   guarded("write the STEP file", path.string(), [&] {
     STEPControl_Writer writer;
+    name_person(writer, labels);
     if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone)
       throw CadError({"the shape does not go into STEP", path.string(), "OpenCASCADE's transfer failed",
                       "export the open surface"});

@@ -96,8 +96,7 @@ std::string rule(const Key& key) {
   }
   if (key.least != -unbounded && std::abs(key.least) != farthest)
     text += fmt::format(" {} {}", key.least_excluded ? ">" : ">=", key.least);
-  if (key.greatest != unbounded && key.greatest != farthest)
-    text += fmt::format(" and <= {}", key.greatest);
+  if (key.greatest != unbounded && key.greatest != farthest) text += fmt::format(" and <= {}", key.greatest);
   if (key.quantity == Quantity::length) text += ", in the scene's unit of length";
   if (key.quantity == Quantity::power_w) text += ", in W";
   return text;
