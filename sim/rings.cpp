@@ -1,6 +1,7 @@
 #include "sim/rings.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
@@ -168,17 +169,25 @@ class Sets {
 
 void estimate(const RingStore& store, std::span<const double> powers, std::span<const double> radii_mm,
               const RingsOptions& options, RingsField& field) {
-  RingDensities densities;
-  for (double radius : radii_mm) {
-    store.estimate(std::min(radius * radius, store.end()), options.kernel, field.bandwidth_mm2, densities);
-    const RingEstimate at = ring_estimate(densities, powers);
-    field.bias.push_back(at.second - at.fourth);
-    field.irradiance.push_back(std::max(0.0, at.second));
-    field.noise.push_back(std::sqrt(at.second_variance));
-    field.poisson_noise.push_back(std::sqrt(at.second_poisson));
-    field.debiased.push_back(std::max(0.0, at.fourth));
-    field.debiased_noise.push_back(std::sqrt(at.fourth_variance));
-  }
+  const std::size_t count = radii_mm.size();
+  for (auto* part : {&field.irradiance, &field.noise, &field.poisson_noise, &field.bias, &field.debiased,
+                     &field.debiased_noise})
+    part->resize(count);
+  constexpr std::size_t chunk = 64;
+  tbb::parallel_for(std::size_t{0}, (count + chunk - 1) / chunk, [&](std::size_t part) {
+    RingDensities densities;
+    for (std::size_t i = part * chunk; i < std::min(count, (part + 1) * chunk); ++i) {
+      const double s = std::min(radii_mm[i] * radii_mm[i], store.end());
+      store.estimate(s, options.kernel, field.bandwidth_mm2, densities);
+      const RingEstimate at = ring_estimate(densities, powers);
+      field.bias[i] = at.second - at.fourth;
+      field.irradiance[i] = std::max(0.0, at.second);
+      field.noise[i] = std::sqrt(at.second_variance);
+      field.poisson_noise[i] = std::sqrt(at.second_poisson);
+      field.debiased[i] = std::max(0.0, at.fourth);
+      field.debiased_noise[i] = std::sqrt(at.fourth_variance);
+    }
+  });
 }
 
 }  // namespace

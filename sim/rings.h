@@ -67,8 +67,9 @@ std::optional<std::string> rings_objection(const Scene& scene);
 /// @fails InputError where rings_objection() has one, for a bandwidth, edge or radius that is no positive
 ///        finite number (a radius may be 0), no replicates; as trace_photons
 /// @error bias of second order in the bandwidth (`debiased`: fourth order), also on the axis and on edges;
-///        noise of random photons like (photons bandwidth)^-1/2, of Sobol points like
-///        (photons bandwidth)^-3/2; a fold blurs like an edge that is not known
+///        noise of random photons like (photons bandwidth)^-1/2, of Sobol points traced in the plane like
+///        (photons bandwidth)^-3/2 (sorted) or 1 / (photons bandwidth) (counted); a fold blurs like an edge
+///        that is not known
 /// @cost  one intersection a photon where the mirror's shape excludes a second, 8 bytes a bin and replicate
 /// @from  Jones 1993; PEERS 5
 RingsField rings_field(const Scene& scene, std::span<const double> radii_mm, const RingsOptions& options);
