@@ -31,7 +31,7 @@ namespace {
 STEPConstruct_ContextTool& context_of(STEPControl_ActorWrite& actor);
 
 /// Opens the actor's private context by explicit instantiation, where the language does not check access
-/// (C++20 [temp.spec]/6). See name_person for the crash that leaves no other way.
+/// (C++20 [temp.spec]/6). See provide_person for the crash that leaves no other way.
 template <STEPConstruct_ContextTool STEPControl_ActorWrite::*member>
 struct ContextAccess {
   friend STEPConstruct_ContextTool& context_of(STEPControl_ActorWrite& actor) { return actor.*member; }
@@ -106,18 +106,21 @@ void label_entities(const Handle(StepData_StepModel) & model, const FileLabels& 
 
 /// Gives AP203 its person. Left alone OCCT makes one from the login name and the machine's network address,
 /// and dereferences null where that name does not resolve (a bare chroot: OSD_Host::InternetAddress,
-/// OCCT 7.6.3).
-void name_person(STEPControl_Writer& writer, const FileLabels& labels) {
+/// OCCT 7.6.3). The same one for every file of the process, since OCCT keeps it in its approvals;
+/// label_entities names it.
+void provide_person(STEPControl_Writer& writer) {
+  static const Handle(StepBasic_PersonAndOrganization) both = [] {
+    const Handle(StepBasic_Person) person = new StepBasic_Person;
+    person->Init(text(""), true, text(""), true, text(""), false, nullptr, false, nullptr, false, nullptr);
+    const Handle(StepBasic_Organization) firm = new StepBasic_Organization;
+    firm->Init(true, text(""), text(""), text(""));
+    const Handle(StepBasic_PersonAndOrganization) pair = new StepBasic_PersonAndOrganization;
+    pair->Init(person, firm);
+    return pair;
+  }();
   const auto actor = Handle(STEPControl_ActorWrite)::DownCast(writer.WS()->NormAdaptor()->ActorWrite());
   if (actor.IsNull())
     throw CadError({"OpenCASCADE has no STEP writer", "", "", "install libocct-data-exchange-7.6"});
-  const Handle(StepBasic_Person) person = new StepBasic_Person;
-  person->Init(text(labels.author), true, text(labels.author), true, text(""), false, nullptr, false, nullptr,
-               false, nullptr);
-  const Handle(StepBasic_Organization) firm = new StepBasic_Organization;
-  firm->Init(true, text(labels.organization), text(labels.organization), text(""));
-  const Handle(StepBasic_PersonAndOrganization) both = new StepBasic_PersonAndOrganization;
-  both->Init(person, firm);
   context_of(*actor).AP203Context().SetDefaultPersonAndOrganization(both);
 }
 
@@ -160,7 +163,7 @@ void write_step(const TopoDS_Shape& shape, const std::filesystem::path& path, co
   session.set("write.precision.mode", 0);
   guarded("write the STEP file", path.string(), [&] {
     STEPControl_Writer writer;
-    name_person(writer, labels);
+    provide_person(writer);
     if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone)
       throw CadError({"the shape does not go into STEP", path.string(), "OpenCASCADE's transfer failed",
                       "export the open surface"});
