@@ -1,5 +1,6 @@
 #include "sim/ring_store.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -14,6 +15,10 @@ constexpr double bins_per_bandwidth = 16;
 /// A cubic through a one-sided window needs four bins; with twice as many it is well conditioned.
 constexpr double fewest_bins_per_bandwidth = 8;
 constexpr std::size_t fewest_bins = 64;
+
+/// A window holds fewer than two bandwidths of twice bins_per_bandwidth, or a whole segment of fewest_bins.
+constexpr int most_bins_of_window = 128;
+using BinArray = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_bins_of_window, 1>;
 
 void reset(RingDensities& out, std::size_t sets) {
   out.second_order.assign(sets, 0.0);
@@ -118,13 +123,19 @@ void CountedRings::prepare(double bandwidth) {
     segment.merged_first = total;
     total += segment.merged_bins;
   }
-  merged_.assign(total * sets_, 0.0);
+  merged_bins_ = total;
+  merged_.assign(total * (sets_ + 1), 0.0);
   for (const Segment& segment : segments_) {
     const std::size_t factor = segment.bins / segment.merged_bins;
-    for (std::size_t set = 0; set < sets_; ++set)
-      for (std::size_t bin = 0; bin < segment.bins; ++bin)
-        merged_[(segment.merged_first + bin / factor) * sets_ + set] +=
-            static_cast<double>(counts_[set * bins_ + segment.first + bin].load(std::memory_order_relaxed));
+    for (std::size_t set = 0; set < sets_; ++set) {
+      const auto* count = counts_.data() + set * bins_ + segment.first;
+      for (std::size_t bin = segment.merged_first; bin < segment.merged_first + segment.merged_bins; ++bin) {
+        std::uint64_t sum = 0;
+        for (std::size_t i = 0; i < factor; ++i) sum += (count++)->load(std::memory_order_relaxed);
+        merged_[set * total + bin] = static_cast<double>(sum);
+        merged_[sets_ * total + bin] += static_cast<double>(sum);
+      }
+    }
   }
 }
 
@@ -151,28 +162,33 @@ void CountedRings::estimate(double s, RingKernel kernel, double bandwidth, RingD
   const std::size_t first = bin_at(std::ceil(place - reach - 0.5)),
                     last = bin_at(std::floor(place + reach + 0.5));
   // Moments by the bins themselves, so that a straight (or cubic) density is seen exactly through them.
-  const double step = 1 / reach;
-  const auto u_of = [&](std::size_t bin) { return (static_cast<double>(bin) + 0.5 - place) * step; };
+  const auto bins = static_cast<Eigen::Index>(last - first);
+  const BinArray u = (BinArray::LinSpaced(bins, 0.0, static_cast<double>(bins - 1)) +
+                      (static_cast<double>(first) + 0.5 - place)) /
+                     reach;
+  const BinArray rest = 1 - u * u;
+  BinArray weight = kernel == RingKernel::biweight ? BinArray(rest * rest) : rest;
   RingMoments moments{};
-  for (std::size_t bin = first; bin < last; ++bin) {
-    const double u = u_of(bin);
-    double term = ring_kernel(kernel, u);
-    for (double& moment : moments) moment += term, term *= u;
+  BinArray term = weight;
+  for (double& moment : moments) {
+    moment = term.sum();
+    term *= u;
   }
-  const BoundaryPolynomial second = boundary_polynomial(moments, 2), fourth = boundary_polynomial(moments, 4);
-  for (std::size_t bin = first; bin < last; ++bin) {
-    const double u = u_of(bin), weight = ring_kernel(kernel, u) / bin_width;
-    const double w2 = weight * second(u), w4 = weight * fourth(u);
-    const double* counts = merged_.data() + (segment.merged_first + bin) * sets_;
-    double photons = 0;
-    for (std::size_t set = 0; set < sets_; ++set) {
-      out.second_order[set] += w2 * counts[set];
-      out.fourth_order[set] += w4 * counts[set];
-      photons += counts[set];
-    }
-    out.second_square += w2 * w2 * photons;
-    out.fourth_square += w4 * w4 * photons;
+  const auto weights_of = [&](int order) -> BinArray {
+    const auto c = boundary_polynomial(moments, order).c;
+    return weight / bin_width * (c[0] + u * (c[1] + u * (c[2] + u * c[3])));
+  };
+  const BinArray second = weights_of(2), fourth = weights_of(4);
+  const auto counts_of = [&](std::size_t row) {
+    return Eigen::Map<const Eigen::ArrayXd>(
+        merged_.data() + row * merged_bins_ + segment.merged_first + first, bins);
+  };
+  for (std::size_t set = 0; set < sets_; ++set) {
+    out.second_order[set] = (second * counts_of(set)).sum();
+    out.fourth_order[set] = (fourth * counts_of(set)).sum();
   }
+  out.second_square = (second.square() * counts_of(sets_)).sum();
+  out.fourth_square = (fourth.square() * counts_of(sets_)).sum();
 }
 
 }  // namespace catoptric::sim

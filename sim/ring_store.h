@@ -89,7 +89,8 @@ class CountedRings final : public RingStore {
   std::vector<Segment> segments_;
   std::size_t bins_ = 0;
   std::vector<std::atomic<std::uint64_t>> counts_;  ///< by set, then bin
-  std::vector<double> merged_;                      ///< by merged bin, then set
+  std::size_t merged_bins_ = 0;
+  std::vector<double> merged_;  ///< by set, then merged bin; one more row holds the sum over the sets
 };
 
 }  // namespace catoptric::sim
