@@ -81,6 +81,9 @@ struct Parser {
         ->check(CLI::IsMember({"mm", "cm", "m", "in"}))
         ->capture_default_str();
     read->footer("Example: catoptric profile data/profiles/start_a.igs --unit cm > fragment.toml");
+    add_common(*app.add_subcommand("explain", "What will be modelled, what is left out, and why")
+                    ->footer("Example: catoptric explain data/paper/start_a.toml"),
+               common, "SCENE.toml");
     auto* written = app.add_subcommand("export", "Writes the scene's mirror as CAD files");
     add_common(*written, common, "SCENE.toml");
     written
@@ -99,6 +102,7 @@ struct Parser {
   ExitCode run() {
     if (app.got_subcommand("design")) return design_command(common);
     if (app.got_subcommand("simulate")) return simulate_command(common);
+    if (app.got_subcommand("explain")) return explain_command(common);
     if (app.got_subcommand("landscape")) return landscape_command(common, landscape);
     if (app.got_subcommand("profile")) return profile_command(common, profile);
     if (app.got_subcommand("export")) return export_command(common, shape);

@@ -6,6 +6,7 @@
 #include "base/ordered_sum.h"
 #include "cad/engines.h"
 #include "sim/source.h"
+#include "sim/tubes.h"
 
 namespace catoptric::design {
 namespace {
@@ -41,6 +42,24 @@ sim::FieldEstimate estimate_field(const Scene& scene, const Profile& profile,
                                   std::span<const sim::FieldSample> samples, std::uint64_t stream) {
   const Stage stage(scene, profile);
   return sim::simulate(stage.scene, samples, photon_options(scene, stream), scene.model.estimate);
+}
+
+sim::Plan search_plan(const Scene& scene, const Profile& profile) {
+  const Stage stage(scene, profile);
+  return sim::make_plan(stage.scene, scene.model.estimate, scene.model.rung);
+}
+
+std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
+                                  std::span<const sim::FieldSample> samples, std::uint64_t stream) {
+  if (rung == sim::Rung::photons) return total(estimate_field(scene, profile, samples, stream));
+  const Stage stage(scene, profile);
+  sim::TubesOptions options;
+  options.kernel_radius_mm = *scene.model.estimate.kernel_radius_mm;
+  options.most_interactions = scene.model.photons.most_interactions;
+  std::vector<double> sum = sim::tubes_field(stage.scene, samples, options).irradiance;
+  const std::vector<double> direct = sim::direct_field(stage.scene, samples);
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += direct[i];
+  return sum;
 }
 
 FieldPair estimate_field_pair(const Scene& scene, const Profile& profile,

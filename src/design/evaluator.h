@@ -12,6 +12,14 @@ namespace catoptric::design {
 sim::FieldEstimate estimate_field(const Scene& scene, const Profile& profile,
                                   std::span<const sim::FieldSample> samples, std::uint64_t stream);
 
+/// What the search computes a mirror's light with in this scene, and why.
+/// @fails InputError when the scene forces a rung that is not valid
+sim::Plan search_plan(const Scene& scene, const Profile& profile);
+
+/// The light of one mirror by a rung: total irradiance at the samples, W/mm^2. Photons come from `stream`.
+std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
+                                  std::span<const sim::FieldSample> samples, std::uint64_t stream);
+
 /// The same photons seen with two bandwidths: the scene's, and the one of half the kernel area that shows the
 /// bias.
 struct FieldPair {

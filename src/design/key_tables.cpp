@@ -59,7 +59,7 @@ const std::vector<Key>& scene_table() {
       {.path = "target.file", .type = text, .meaning = "csv: table with columns x, y, z in the scene's unit and the irradiance in W/m^2; its points replace the near field's samples"},
       {.path = "target.column", .type = text, .meaning = "csv: name of the column that holds the irradiance"},
 
-      {.path = "model.rung", .type = choice, .choices = {"auto", "photons"}, .standard = "\"auto\"", .meaning = "how the light is computed"},
+      {.path = "model.rung", .type = choice, .choices = {"auto", "tubes", "photons"}, .standard = "\"auto\"", .meaning = "how a search and a landscape compute the light: ray tubes without noise where the scene allows, or photons; verdicts are always by photons"},
       {.path = "model.engine", .type = choice, .choices = {"auto", "meridian", "occt"}, .standard = "\"auto\"", .meaning = "how rays meet the mirror; occt is the slow reference"},
       {.path = "model.photons", .type = integer, .least = 0, .greatest = 1e10, .standard = "100000", .meaning = "photons emitted for one evaluation"},
       {.path = "model.neighbours", .type = integer, .least = 1, .greatest = 1e9, .meaning = "photons in one estimate (the paper's N); not together with kernel_radius"},

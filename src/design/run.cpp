@@ -38,12 +38,12 @@ std::vector<double> starts(const std::vector<optim::Variable>& variables) {
 }
 
 /// The objective of one design vector on the search's stream; infinity where no mirror can be built.
-double value_at(const Scene& scene, const Target& target, const ProfileFamily& family,
+double value_at(const Scene& scene, sim::Rung rung, const Target& target, const ProfileFamily& family,
                 std::span<const double> x) {
   const auto profile = family.at(x);
   if (!profile) return std::numeric_limits<double>::infinity();
-  const sim::FieldEstimate field = estimate_field(scene, *profile, target.samples, search_stream);
-  return objective(scene, total(field), target.irradiance_w_per_mm2);
+  return objective(scene, total_by_rung(scene, rung, *profile, target.samples, search_stream),
+                   target.irradiance_w_per_mm2);
 }
 
 /// Share of a pattern search that is done, by the step: it must be halved so many times in all.
@@ -66,12 +66,12 @@ void need_light(const Scene& scene, const Target& target) {
                                "search.metric = \"rmse\"");
 }
 
-optim::Outcome search(const Scene& scene, const Target& target, const RunControl& control) {
+optim::Outcome search(const Scene& scene, sim::Rung rung, const Target& target, const RunControl& control) {
   const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
   long evaluations = 0;
   double best = std::numeric_limits<double>::quiet_NaN(), share = 0;
   optim::Problem problem{scene.variables, [&](std::span<const double> x) {
-                           const double value = value_at(scene, target, family, x);
+                           const double value = value_at(scene, rung, target, family, x);
                            ++evaluations;
                            if (std::isnan(best) || value < best) best = value;
                            control.tell({"search", share, best, evaluations});
@@ -110,19 +110,21 @@ DesignResult run_design(const Scene& scene, const RunControl& control) {
                                "[variables.w1] with step, lower and upper");
   need_target(scene, "design");
   const Profile start = start_profile(scene);
+  sim::Plan plan = search_plan(scene, start);
   const Stopwatch watch;
   Target target = make_target(scene);
   need_light(scene, target);
-  optim::Outcome outcome = search(scene, target, control);
+  optim::Outcome outcome = search(scene, plan.rung, target, control);
   const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
   const Profile best = family.at(outcome.best).value_or(start);
   control.tell({"verify", 1.0, outcome.value, outcome.evaluations});
   Judgement start_judgement = judge(scene, target, start, verdict_stream);
   Judgement best_judgement = judge(scene, target, best, verdict_stream);
-  const std::uint64_t photons =
-      scene.model.photons.photons *
-      (static_cast<std::uint64_t>(outcome.evaluations) + 2 * scene.model.replicates);
+  const auto by_photons =
+      plan.rung == sim::Rung::photons ? static_cast<std::uint64_t>(outcome.evaluations) : std::uint64_t{0};
+  const std::uint64_t photons = scene.model.photons.photons * (by_photons + 2 * scene.model.replicates);
   return {std::move(target),
+          std::move(plan),
           outcome,
           {start, starts(scene.variables), std::move(start_judgement)},
           {best, outcome.best, std::move(best_judgement)},
@@ -160,7 +162,9 @@ Landscape run_landscape(const Scene& scene, const RunControl& control) {
   const Target target = make_target(scene);
   need_light(scene, target);
   // Everything that is not drawn stays at its start.
-  const ProfileFamily family(start_profile(scene), spec.variables, scene.unit);
+  const Profile start = start_profile(scene);
+  const sim::Rung rung = search_plan(scene, start).rung;
+  const ProfileFamily family(start, spec.variables, scene.unit);
   const std::vector<double> once{0.0};
   const std::vector<double>& second = result.axes.size() > 1 ? result.axes[1] : once;
   const double points = static_cast<double>(result.axes[0].size() * second.size());
@@ -170,7 +174,7 @@ Landscape run_landscape(const Scene& scene, const RunControl& control) {
       if (control.stopped()) throw Error(ExitCode::interrupted, {"interrupted", "", "", ""});
       std::vector<double> x{a};
       if (result.axes.size() > 1) x.push_back(b);
-      const double value = value_at(scene, target, family, x);
+      const double value = value_at(scene, rung, target, family, x);
       result.objective.push_back(std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN());
       if (std::isnan(best) || value < best) best = value;
       control.tell({"landscape", static_cast<double>(result.objective.size()) / points, best,

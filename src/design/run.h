@@ -41,6 +41,7 @@ struct Judged {
 /// What `design` found.
 struct DesignResult {
   Target target;
+  sim::Plan plan;  ///< what the search computed the light with, and why
   optim::Outcome search;
   Judged start, best;
   std::uint64_t photons = 0;  ///< emitted in all

@@ -100,6 +100,8 @@ TargetSpec target(const Settings& settings, double unit_mm) {
 
 ModelSpec model(const Settings& settings, double unit_mm) {
   ModelSpec spec{};
+  const std::string rung = *settings.text("model.rung");
+  if (rung != "auto") spec.rung = rung == "tubes" ? sim::Rung::tubes : sim::Rung::photons;
   spec.engine = settings.text("model.engine") == "occt" ? Engine::occt : Engine::meridian;
   spec.photons.photons = static_cast<std::uint64_t>(*settings.integer("model.photons"));
   spec.photons.sampler =

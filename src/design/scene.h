@@ -12,6 +12,7 @@
 #include "design/settings.h"
 #include "optim/problem.h"
 #include "sim/near_field.h"
+#include "sim/planner.h"
 #include "sim/simulation.h"
 
 namespace catoptric::design {
@@ -38,6 +39,7 @@ std::string_view name(Engine engine);
 
 /// How the light is computed.
 struct ModelSpec {
+  std::optional<sim::Rung> rung;  ///< of the search and landscapes; nothing: the planner's choice
   Engine engine;
   sim::PhotonOptions photons;
   sim::EstimateOptions estimate;

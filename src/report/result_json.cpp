@@ -67,8 +67,8 @@ Json reflector_json(const design::Scene& scene, const Profile& profile) {
           {"area_mm2", profile.area_mm2()}};
 }
 
-Json run_json(const design::Scene& scene) {
-  return {{"model", "photons"},
+Json run_json(const design::Scene& scene, sim::Rung rung) {
+  return {{"model", std::string(name(rung))},
           {"intersector", std::string(name(scene.model.engine))},
           {"sampler", scene.model.photons.sampler == sim::Sampler::sobol ? "sobol" : "random"},
           {"seed", scene.seed},
@@ -106,7 +106,8 @@ Json result_json(const design::Scene& scene, const design::DesignResult& result)
                     {"cache_hits", result.search.cache_hits},
                     {"photons", result.photons}};
   json["seconds"] = result.seconds;
-  json.update(run_json(scene));
+  json.update(run_json(scene, result.plan.rung));
+  json["verdict_model"] = "photons";
   json["energy"] = energy_json(scene, judgement.energy);
   json["reflector"] = reflector_json(scene, result.best.profile);
   json["profile_notes"] = scene.profile_notes;
@@ -121,7 +122,7 @@ Json result_json(const design::Scene& scene, const design::SimulationResult& res
   json.update(judged_json(scene, result.mirror));
   json["counts"] = {{"photons", result.photons}};
   json["seconds"] = result.seconds;
-  json.update(run_json(scene));
+  json.update(run_json(scene, sim::Rung::photons));
   json["energy"] = energy_json(scene, result.mirror.judgement.energy);
   json["reflector"] = reflector_json(scene, result.mirror.profile);
   json["profile_notes"] = scene.profile_notes;

@@ -67,8 +67,10 @@ PageSection mirror_section(const design::Scene& scene, const Profile& profile) {
 }
 
 /// What the model holds and what it does not, so that nobody reads more into the figures.
-PageSection model_section(const design::Scene& scene) {
+PageSection model_section(const design::Scene& scene, const sim::Plan& plan) {
   PageSection section{"What was modelled", {}, {}, {}, {}};
+  for (const sim::Finding& finding : plan.findings)
+    section.facts.emplace_back(finding.feature, finding.found + ": " + finding.consequence);
   section.paragraphs = {
       fmt::format("Photons from a point source meet the true surface of revolution (engine {}), are "
                   "reflected specularly with "
@@ -113,7 +115,7 @@ std::string design_page(const design::Scene& scene, const design::DesignResult& 
        {}},
       figure_section("Pictures", figures),
       mirror_section(scene, result.best.profile),
-      model_section(scene),
+      model_section(scene, result.plan),
       {"Search", {}, {}, {{"Iterates", convergence_table(scene, result.search)}}, {}},
   };
   return html_page(page);
@@ -133,7 +135,7 @@ std::string simulation_page(const design::Scene& scene, const design::Simulation
                     {}},
                    figure_section("Pictures", figures),
                    mirror_section(scene, result.mirror.profile),
-                   model_section(scene)};
+                   model_section(scene, {})};
   return html_page(page);
 }
 

@@ -37,7 +37,7 @@ TEST_CASE("help and version are no errors, and every command shows an example") 
   const Ended keys = program_run("--keys");
   CHECK(keys.code == 0);
   CHECK_THAT(keys.output, Contains("model.photons\n") && Contains("100000 when left out"));
-  for (const char* command : {"design", "simulate", "landscape", "profile", "export", "study"}) {
+  for (const char* command : {"design", "simulate", "explain", "landscape", "profile", "export", "study"}) {
     const Ended help = program_run(std::string(command) + " --help");
     INFO(help.output);
     CHECK(help.code == 0);
@@ -197,6 +197,17 @@ TEST_CASE("simulate, landscape, export and study leave what they promise") {
   CHECK(list[1]["variables"]["w1"] == 1.6);
   CHECK_THAT(printed, Contains("w1 ref"));
   CHECK(std::filesystem::exists(folder / "st" / "b" / "irradiance.csv"));
+}
+
+TEST_CASE("explain says what is modelled and why, and a rung that is not valid is refused with its reason") {
+  const Ended plan = program_run("explain '" + paper + "start_a.toml' --set model.rung=auto");
+  CHECK(plan.code == 0);
+  CHECK_THAT(plan.output, Contains("rung") && Contains("tubes") && Contains("verdict"));
+  const Ended refused = program_run(
+      "explain '" + paper +
+      "start_a.toml' --set model.rung=tubes --set source.position=[1,0,5] --set target.kind=none");
+  CHECK(refused.code == 3);
+  CHECK_THAT(refused.output, Contains("model.rung") && Contains("axis"));
 }
 
 TEST_CASE("an irradiance.csv serves as the target of another scene") {
