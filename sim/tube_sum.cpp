@@ -71,12 +71,17 @@ double rule(const Tube& tube, double h, double r, double first, double last) {
       first, last);
 }
 
-double integral(const Tube& tube, double h, double r, double first, double last, double reach) {
-  // By the length in kernel radii; at a cut the kernel ends like distance^(5/2), for which n points leave
-  // n^-7.
-  if (reach < 0.02 * h) return rule<3>(tube, h, r, first, last);
-  if (reach < 0.15 * h) return rule<5>(tube, h, r, first, last);
-  if (reach < 0.6 * h) return rule<8>(tube, h, r, first, last);
+/// By the length in kernel radii. Where a cut ends the stretch, the kernel ends like distance^(5/2), for
+/// which n points leave n^-7; elsewhere it is a smooth function of the length, for which they leave
+/// length^(2n).
+double integral(const Tube& tube, double h, double r, double first, double last, double reach, bool cut) {
+  // The emission angle counts too: where light gathers, much of it lands within little length.
+  const double turn = (last - first) * (tube.last_rad - tube.first_rad);
+  const double length = std::max((cut ? 4 : 1) * reach / h, turn);
+  if (length < 0.01) return rule<2>(tube, h, r, first, last);
+  if (length < 0.05) return rule<3>(tube, h, r, first, last);
+  if (length < 0.3) return rule<5>(tube, h, r, first, last);
+  if (length < 1.2) return rule<8>(tube, h, r, first, last);
   return rule<16>(tube, h, r, first, last);
 }
 
@@ -96,7 +101,8 @@ double seen_from(const Tube& tube, const Stretch& stretch, double h, double r) {
     const double b = to == stretch.rho_first  ? stretch.first
                      : to == stretch.rho_last ? stretch.last
                                               : place_of(tube, stretch, to);
-    sum += integral(tube, h, r, std::min(a, b), std::max(a, b), to - from);
+    sum +=
+        integral(tube, h, r, std::min(a, b), std::max(a, b), to - from, from == ends[i] || to == ends[i + 1]);
   }
   return sum;
 }
@@ -134,10 +140,15 @@ double branch_irradiance(double power_w, double theta, double rho, double slope,
 
 class Polisher {
  public:
-  Polisher(const TubeTracer& tracer, double power_w) : tracer_(tracer), power_w_(power_w) {}
+  Polisher(const TubeTracer& tracer, double power_w, int most_rays)
+      : tracer_(tracer), power_w_(power_w), most_rays_(most_rays) {}
 
   /// The branch that lands at `rho` near `theta`.
   double irradiance(const Tube& tube, double theta, double rho, PointwiseSum& sum) {
+    if (sum.rays >= most_rays_) {
+      sum.error_w_per_mm2 = HUGE_VAL;  // a branch left out
+      return 0;
+    }
     const AxialEnd axis = axial_end(tube);
     double before = 0, value = 0;
     // Newton doubles the digits: from the tube's three to all of them in three steps.
@@ -170,6 +181,7 @@ class Polisher {
 
   const TubeTracer& tracer_;
   double power_w_;
+  int most_rays_;
   std::vector<Landing> landings_;
 };
 
@@ -191,10 +203,10 @@ void add_smoothed(const Tube& tube, double power_w, double kernel_radius_mm, std
   }
 }
 
-PointwiseSum add_pointwise(const TubeMap& map, const TubeTracer& tracer, double power_w,
+PointwiseSum add_pointwise(const TubeMap& map, const TubeTracer& tracer, double power_w, int most_rays,
                            std::span<const double> radii_mm, std::vector<double>& values) {
   PointwiseSum sum;
-  Polisher polisher(tracer, power_w);
+  Polisher polisher(tracer, power_w, most_rays);
   for (const Tube& tube : map.tubes) {
     const double width = tube.last_rad - tube.first_rad;
     const AxialEnd axis = axial_end(tube);

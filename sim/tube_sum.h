@@ -25,7 +25,7 @@ struct PointwiseSum {
 /// Adds the pointwise irradiance of all branches, each found on the tubes and polished by Newton's method
 /// with rays of its own.
 /// @cost  two or three rays for each radius and branch
-PointwiseSum add_pointwise(const TubeMap& map, const TubeTracer& tracer, double power_w,
+PointwiseSum add_pointwise(const TubeMap& map, const TubeTracer& tracer, double power_w, int most_rays,
                            std::span<const double> radii_mm, std::vector<double>& values);
 
 }  // namespace catoptric::sim

@@ -81,7 +81,7 @@ TubesField tubes_field(const PointSource& source, const Profile& profile, const 
   if (h > 0) {
     for (const Tube& tube : map.tubes) add_smoothed(tube, power_w, h, radii, values);
   } else {
-    const PointwiseSum sum = add_pointwise(map, tracer, power_w, radii, values);
+    const PointwiseSum sum = add_pointwise(map, tracer, power_w, options.most_rays - map.rays, radii, values);
     field.error_w_per_mm2 = sum.error_w_per_mm2;
     field.rays += sum.rays;
   }

@@ -215,6 +215,26 @@ TEST_CASE("what is on the plane is what the mirror caught", "[tubes]") {
   CHECK(sum == Approx(field.landed_w).epsilon(1e-9));
 }
 
+TEST_CASE("the error bound holds against a hundred times finer tubes", "[tubes]") {
+  for (const Profile& profile : {Profile::bezier({{0, 100, 1}, {50, 100, 1.6}, {90, 50, 1}}),
+                                 Profile::bezier({{0, 100, 1}, {50, 100, 1.8}, {70, 50, 1}}),
+                                 Profile::bezier({{30, 90, 1}, {70, 80, 1}, {60, 10, 1}})}) {
+    const std::vector<double> radii = steps(0, 60, 41);
+    const TubesField fine = tubes_field(focus, profile, {}, ground, radii, smooth(5, 1e-9));
+    REQUIRE(fine.error_w_per_mm2 <= from_w_per_m2(1e-9));
+    for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+      const TubesField field = tubes_field(focus, profile, {}, ground, radii, smooth(5, tolerance));
+      REQUIRE(field.error_w_per_mm2 <= from_w_per_m2(tolerance));
+      double worst = 0;
+      for (std::size_t i = 0; i < radii.size(); ++i)
+        worst = std::max(worst, std::abs(field.irradiance[i] - fine.irradiance[i]));
+      INFO("tolerance " << tolerance << " rays " << field.rays << " against " << fine.rays << ", error "
+                        << to_w_per_m2(worst) << " bound " << to_w_per_m2(field.error_w_per_mm2));
+      CHECK(worst <= field.error_w_per_mm2 + fine.error_w_per_mm2);
+    }
+  }
+}
+
 TEST_CASE("light through the mirror counts, and light that comes from below does not", "[tubes]") {
   // A half-silvered dome about the source: transmitted light leaves upwards, the reflected half comes down,
   // passes the source and never meets the dome again.
