@@ -48,8 +48,8 @@ double place_of(const Tube& tube, const Stretch& stretch, double rho) {
   double low = stretch.first, high = stretch.last;
   const bool rises = stretch.rho_last > stretch.rho_first;
   double t = low + (high - low) * (rho - stretch.rho_first) / (stretch.rho_last - stretch.rho_first);
-  // Below this the landing is within a rounding of the tube's width: the cubic's own error is larger.
-  const double enough = 1e-15;
+  // Newton squares what is left: after a step of this size the place is at its rounding.
+  const double enough = 1e-9;
   for (int step = 0; step < 60; ++step) {
     const double off = tube.at(t) - rho;
     ((off < 0) == rises ? low : high) = t;
@@ -158,10 +158,10 @@ class Polisher {
       before = value;
       value = tube.weight * branch_irradiance(power_w_, theta, rho, landing->slope_mm_per_rad, axis);
       if (!std::isfinite(value)) return value;
-      const double next = std::clamp(theta + (rho - landing->rho_mm) / landing->slope_mm_per_rad,
-                                     tube.first_rad, tube.last_rad);
-      const bool settled = std::abs(next - theta) <= 1e-15 * theta;  // a few roundings of the angle
-      theta = next;
+      const double move = (rho - landing->rho_mm) / landing->slope_mm_per_rad;
+      const bool settled = std::abs(move) <= 1e-15 * theta;  // a few roundings of the angle
+      theta = std::clamp(theta + move, tube.first_rad, tube.last_rad);
+      if (settled) before = value;  // what this ray gives is final, however far the one before was
       if (settled || (step > 0 && std::abs(value - before) <= 1e-13 * value)) break;
     }
     // Past the last two steps agreeing to 1e-13 what is left is rounding in the ray's derivative.
