@@ -16,7 +16,8 @@ sim::FieldEstimate estimate_field(const Scene& scene, const Profile& profile,
 /// @fails InputError when the scene forces a rung that is not valid
 sim::Plan search_plan(const Scene& scene, const Profile& profile);
 
-/// The light of one mirror by a rung: total irradiance at the samples, W/mm^2. Photons come from `stream`.
+/// The light of one mirror by a rung: total irradiance at the samples, W/mm^2. Photons come from `stream`;
+/// they also stand in where tubes cannot meet their error bound (cavities with very many paths).
 std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
                                   std::span<const sim::FieldSample> samples, std::uint64_t stream);
 
