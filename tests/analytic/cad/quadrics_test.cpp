@@ -54,10 +54,8 @@ void judge(const Quadric& q, const Ray& ray, const std::vector<Hit>& hits, Tally
   }
 }
 
-}  // namespace
-
-TEST_CASE("meridian agrees with the closed forms of five quadrics and loses no ray", "[meridian]") {
-  constexpr std::uint64_t count = 100000;
+/// `count` rays of each class against each quadric.
+void hold_to_closed_forms(std::uint64_t count) {
   for (const Quadric& q : Quadric::all()) {
     const auto reflector = cad::make_meridian_reflector(q.profile);
     for (const RayClass which : all_classes) {
@@ -85,3 +83,11 @@ TEST_CASE("meridian agrees with the closed forms of five quadrics and loses no r
     }
   }
 }
+
+}  // namespace
+
+TEST_CASE("meridian agrees with the closed forms of five quadrics and loses no ray", "[meridian]") {
+  hold_to_closed_forms(100'000);
+}
+
+TEST_CASE("the same with a hundred million rays", "[meridian][.long]") { hold_to_closed_forms(5'000'000); }
