@@ -71,7 +71,7 @@ std::optional<std::string> rings_objection(const Scene& scene);
 ///        (photons bandwidth)^-3/2 (sorted) or 1 / (photons bandwidth) (counted); a fold blurs like an edge
 ///        that is not known
 /// @cost  one intersection a photon where the mirror's shape excludes a second, 8 bytes a bin and replicate
-/// @from  Jones 1993; PEERS 5
+/// @from  Jones 1993
 RingsField rings_field(const Scene& scene, std::span<const double> radii_mm, const RingsOptions& options);
 
 }  // namespace catoptric::sim

@@ -47,7 +47,7 @@ struct TubesField {
 /// @cost  about 0.4 us a ray and bounce; 50 rays for 1e-6 W/m^2 on the paraboloid, 130 to 260 on the paper's
 ///        starts with their folds; then some microseconds for each smoothed radius. A cavity whose light
 ///        bounces many times may need more rays than allowed: the error then says so
-/// @from  paper eq. 12 for the paraboloid; flux tubes: Burkhard & Shealy 1981; PEERS: deterministic bundle
+/// @from  paper eq. 12 for the paraboloid; flux tubes: Burkhard & Shealy 1981
 TubesField tubes_field(const PointSource& source, const Profile& profile, const Material& mirror,
                        const FieldPlane& plane, std::span<const double> radii_mm,
                        const TubesOptions& options);

@@ -19,6 +19,9 @@ struct FileLabels {
 /// @fails InputError when a text is not printable ASCII or the time stamp has another form
 FileLabels make_labels(const std::filesystem::path& path, const ExportOptions& options);
 
+/// OCCT's word for a unit of length: "MM", "CM", "M" or "INCH".
+const char* unit_name(LengthUnit unit);
+
 /// Writers and readers of exact formats. Shapes are in mm. Reals are printed with 17 digits.
 /// @fails CadError when OCCT refuses, IoError when the file cannot be written
 void write_step(const TopoDS_Shape& shape, const std::filesystem::path& path, const FileLabels& labels,

@@ -66,4 +66,18 @@ FileLabels make_labels(const std::filesystem::path& path, const ExportOptions& o
           options.time_stamp.empty() ? default_time_stamp() : options.time_stamp};
 }
 
+const char* unit_name(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::millimetre:
+      return "MM";
+    case LengthUnit::centimetre:
+      return "CM";
+    case LengthUnit::metre:
+      return "M";
+    case LengthUnit::inch:
+      return "INCH";
+  }
+  return "MM";
+}
+
 }  // namespace catoptric::cad::detail

@@ -20,20 +20,6 @@ Handle(TCollection_HAsciiString) text(const std::string& content) {
   return new TCollection_HAsciiString(content.c_str());
 }
 
-const char* unit_name(LengthUnit unit) {
-  switch (unit) {
-    case LengthUnit::millimetre:
-      return "MM";
-    case LengthUnit::centimetre:
-      return "CM";
-    case LengthUnit::metre:
-      return "M";
-    case LengthUnit::inch:
-      return "INCH";
-  }
-  return "MM";
-}
-
 /// "2026-01-31T12:00:00" as IGES writes it: "20260131.120000".
 std::string iges_date(const std::string& stamp) {
   return stamp.substr(0, 4) + stamp.substr(5, 2) + stamp.substr(8, 2) + "." + stamp.substr(11, 2) +

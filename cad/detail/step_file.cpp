@@ -42,20 +42,6 @@ Handle(TCollection_HAsciiString) text(const std::string& content) {
   return new TCollection_HAsciiString(content.c_str());
 }
 
-std::string unit_name(LengthUnit unit) {
-  switch (unit) {
-    case LengthUnit::millimetre:
-      return "MM";
-    case LengthUnit::centimetre:
-      return "CM";
-    case LengthUnit::metre:
-      return "M";
-    case LengthUnit::inch:
-      return "INCH";
-  }
-  return "MM";
-}
-
 std::string schema_name(StepSchema schema) {
   switch (schema) {
     case StepSchema::ap203:
