@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -38,6 +39,13 @@ class Probe {
 
   /// All hits farther than `beyond_mm`, nearest first, each once.
   virtual std::vector<Hit> all_hits(const Ray& ray, double beyond_mm) = 0;
+
+  /// The nearest hits of many rays: hits[i] belongs to rays[i], and no ray's hit depends on the others.
+  /// Engines that work on several rays at a time answer here; the rest go one by one.
+  /// @in    as many hits as rays
+  virtual void first_hits(std::span<const Ray> rays, double beyond_mm, std::span<std::optional<Hit>> hits) {
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = first_hit(rays[i], beyond_mm);
+  }
 
   /// Whether the mirror stands between two points, hits within `lift_mm` of either end not counted.
   bool blocks(const Vector3& from_mm, const Vector3& to_mm, double lift_mm) {
