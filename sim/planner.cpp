@@ -2,67 +2,182 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <utility>
+
 #include "base/errors.h"
+#include "base/profile.h"
+#include "base/units.h"
+#include "sim/opening.h"
+#include "sim/plane_flights.h"
+#include "sim/projection_map.h"
+#include "sim/rings.h"
+#include "sim/tracer.h"
 #include "sim/tubes.h"
 
 namespace catoptric::sim {
 namespace {
 
-/// Why ray tubes cannot give what is asked for, in words, or nothing.
-std::optional<std::string> objection_to_tubes(const Scene& scene, const EstimateOptions& estimate) {
+constexpr std::array<std::pair<Rung, std::string_view>, 3> rung_names{
+    {{Rung::tubes, "tubes"}, {Rung::rings, "rings"}, {Rung::photons, "photons"}}};
+
+std::optional<std::string> objection_to_tubes(const Scene& scene, const ModelRequest& request) {
+  const EstimateOptions& estimate = request.estimate;
   if (auto objection = tubes_objection(scene.source, scene.reflector.profile(), scene.near_field))
     return objection;
+  if (request.engine && *request.engine != "meridian")
+    return fmt::format("tubes meet the mirror in its meridian, and engine {} was asked for", *request.engine);
   if (estimate.neighbours) return "the estimate asks for a number of photons, and tubes have none";
   if (estimate.kernel != Kernel::silverman)
     return fmt::format("tubes are smoothed by the Silverman kernel, not by {}", name(estimate.kernel));
   return std::nullopt;
 }
 
-void describe(const Scene& scene, std::vector<Finding>& findings) {
-  const Vector3& source_mm = scene.source.position_mm();
-  const bool on_axis = source_mm.x() == 0 && source_mm.y() == 0;
-  findings.push_back({"source", on_axis ? "a point on the axis" : "a point off the axis",
-                      on_axis ? "rays stay in their meridian" : "rays leave their meridian"});
-  findings.push_back({"mirror", "specular, of revolution", "nothing scatters there"});
-  const double split = scene.mirror.transmittance > 0 && scene.mirror.reflectance > 0 ? 2 : 1;
-  findings.push_back(
-      {"losses",
-       fmt::format("reflectance {}, transmittance {}", scene.mirror.reflectance, scene.mirror.transmittance),
-       split > 1 ? "paths branch at every meeting" : "paths do not branch"});
-  const bool across = scene.near_field.normal().head<2>().isZero();
-  findings.push_back(
-      {"near field", across ? "a plane across the axis" : "a tilted plane",
-       across ? "irradiance depends on the distance from the axis alone" : "irradiance has no symmetry"});
-  const auto& material = scene.near_field.material();
-  findings.push_back({"near field's surface", material ? "real" : "invisible",
-                      material && material->reflectance > 0 ? "its diffuse light may reach the mirror again"
-                                                            : "no light returns from it"});
+std::optional<std::string> objection_to_rings(const Scene& scene, const EstimateOptions& estimate) {
+  if (auto objection = rings_objection(scene)) return objection;
+  if (estimate.neighbours)
+    return "the estimate asks for a number of photons, and rings have a fixed bandwidth in r^2";
+  if (estimate.kernel != Kernel::silverman && estimate.kernel != Kernel::epanechnikov)
+    return fmt::format("rings are smoothed by the Silverman or Epanechnikov kernel, not by {}",
+                       name(estimate.kernel));
+  return std::nullopt;
+}
+
+/// What the scene is, feature by feature.
+class Description {
+ public:
+  explicit Description(const Scene& scene) : scene_(scene) {}
+
+  std::vector<Finding> write(Rung rung) {
+    source();
+    mirror();
+    near_field();
+    more_meetings();
+    if (rung != Rung::tubes) directions();
+    return std::move(findings_);
+  }
+
+ private:
+  void add(std::string feature, std::string found, std::string consequence) {
+    findings_.push_back({std::move(feature), std::move(found), std::move(consequence)});
+  }
+
+  void source() {
+    const Vector3& at_mm = scene_.source.position_mm();
+    const bool on_axis = at_mm.x() == 0 && at_mm.y() == 0;
+    add("source", on_axis ? "a point on the axis" : "a point off the axis",
+        on_axis ? "rays stay in their meridian plane: two dimensions are enough"
+                : "rays leave their meridian plane: three dimensions");
+    add("source's size", "none", "left out: the scene has no extended source");
+  }
+
+  void mirror() {
+    const Material& mirror = scene_.mirror;
+    add("mirror", "specular, of revolution", "nothing scatters there; roughness is left out");
+    const bool branches = mirror.transmittance > 0 && mirror.reflectance > 0;
+    add("losses", fmt::format("reflectance {}, transmittance {}", mirror.reflectance, mirror.transmittance),
+        branches                    ? "paths branch at every meeting"
+        : mirror.reflectance >= 1.0 ? "nothing is lost: no roulette is played"
+                                    : "paths do not branch");
+  }
+
+  void near_field() {
+    const bool across = scene_.near_field.normal().head<2>().isZero();
+    add("near field", across ? "a plane across the axis" : "a tilted plane",
+        across ? "with the source on the axis irradiance depends on the distance from it alone"
+               : "irradiance has no symmetry about the axis");
+    const auto& material = scene_.near_field.material();
+    add("near field's surface", material ? "real" : "invisible",
+        material && material->reflectance > 0 ? "its diffuse light may reach the mirror again"
+                                              : "no light returns from it");
+  }
+
+  void more_meetings() {
+    const auto& material = scene_.near_field.material();
+    const bool lets_out = Opening::of(scene_.reflector.profile()).has_value();
+    add("second meetings",
+        lets_out ? "a bowl, open to one side" : "a shape that may throw light back on itself",
+        lets_out ? "light that leaves through the mouth is not followed to a second intersection"
+                 : "every reflected ray is followed to its next meeting");
+    if (material && material->reflectance <= 0)
+      add("light from the field", "absorbed or passed on", "left out: no diffuse light");
+  }
+
+  void directions() {
+    const double share = emission_map(scene_).solid_angle_sr() / (4 * pi);
+    add("emission", fmt::format("{:.3g} of all directions may meet the mirror", share),
+        "photons are sent nowhere else");
+  }
+
+  const Scene& scene_;
+  std::vector<Finding> findings_;
+};
+
+Finding rung_finding(Rung rung) {
+  switch (rung) {
+    case Rung::tubes:
+      return {"rung", "tubes", "ray tubes in one meridian: no random numbers, no noise"};
+    case Rung::rings:
+      return {"rung", "rings", "photons folded about the axis: a density in one dimension, no photon map"};
+    case Rung::photons:
+      break;
+  }
+  return {"rung", "photons", "a photon map in three dimensions"};
+}
+
+Finding intersection_finding(const Scene& scene, Rung rung) {
+  const std::string engine(scene.reflector.engine());
+  const bool planar = rung == Rung::tubes || (rung == Rung::rings && PlaneFlights::possible(scene));
+  return {"intersection", engine,
+          planar ? "the ray against the generatrix in its meridian plane: half the degree"
+                 : "the ray against the surface of revolution"};
 }
 
 }  // namespace
 
-std::string_view name(Rung rung) { return rung == Rung::tubes ? "tubes" : "photons"; }
+std::string_view name(Rung rung) {
+  for (const auto& [each, text] : rung_names)
+    if (each == rung) return text;
+  return "";
+}
 
-Plan make_plan(const Scene& scene, const EstimateOptions& estimate, std::optional<Rung> wanted) {
+std::optional<Rung> parse_rung(std::string_view text) {
+  for (const auto& [rung, each] : rung_names)
+    if (each == text) return rung;
+  return std::nullopt;
+}
+
+std::optional<std::string> rung_objection(Rung rung, const Scene& scene, const ModelRequest& request) {
+  if (rung == Rung::tubes) return objection_to_tubes(scene, request);
+  if (rung == Rung::rings) return objection_to_rings(scene, request.estimate);
+  return std::nullopt;
+}
+
+Plan make_plan(const Scene& scene, const ModelRequest& request) {
   Plan plan;
-  describe(scene, plan.findings);
-  const auto objection = objection_to_tubes(scene, estimate);
-  if (wanted == Rung::tubes && objection)
-    throw InputError(
-        {"rung tubes cannot light this scene", "model.rung", *objection, "model.rung = \"auto\""});
-  if (wanted == Rung::photons) {
-    plan.rung = Rung::photons;
-    plan.findings.push_back(
-        {"rung", "photons, as asked for",
-         objection ? "tubes would not do: " + *objection : "tubes would do, without noise"});
-  } else if (objection) {
-    plan.rung = Rung::photons;
-    plan.findings.push_back({"rung", "photons", "tubes would not do: " + *objection});
-  } else {
-    plan.rung = Rung::tubes;
-    plan.findings.push_back({"rung", wanted ? "tubes, as asked for" : "tubes",
-                             "no random numbers, no noise; the kernel's blur stays as asked for"});
+  std::vector<Finding> verdicts;
+  bool chosen = false;
+  for (const Rung rung : all_rungs) {
+    const auto objection = rung_objection(rung, scene, request);
+    if (objection && request.rung == rung)
+      throw InputError({fmt::format("rung {} cannot light this scene", name(rung)), "model.rung", *objection,
+                        "model.rung = \"auto\""});
+    if (objection) {
+      verdicts.push_back({fmt::format("rung {}", name(rung)), "not valid here", *objection});
+    } else if (request.rung && request.rung != rung) {
+      verdicts.push_back({fmt::format("rung {}", name(rung)), "valid",
+                          fmt::format("not taken: {} was asked for", name(*request.rung))});
+    } else if (chosen) {
+      verdicts.push_back({fmt::format("rung {}", name(rung)), "valid", "not taken: dearer than needed"});
+    } else {
+      plan.rung = rung;
+      chosen = true;
+    }
   }
+  plan.findings = Description(scene).write(plan.rung);
+  plan.findings.insert(plan.findings.end(), verdicts.begin(), verdicts.end());
+  plan.findings.push_back(rung_finding(plan.rung));
+  plan.findings.push_back(intersection_finding(scene, plan.rung));
   return plan;
 }
 

@@ -32,7 +32,15 @@ double cover_radius_mm(const NearField& field) {
   throw InputError({std::move(what), "rings", std::move(why), std::move(hint)});
 }
 
-void check(const Scene& scene, std::span<const double> radii_mm, const RingsOptions& options) {
+void check_radii(double cover_mm, std::span<const double> radii_mm) {
+  const double most_mm = cover_mm * (1 + Tolerance::for_scale(1).length_mm);
+  for (double radius : radii_mm)
+    if (!(radius >= 0 && radius <= most_mm))
+      refuse(fmt::format("radius of {} mm", radius),
+             fmt::format("the near field reaches from the axis to {} mm", cover_mm), "ask inside the field");
+}
+
+void check(const Scene& scene, const RingsOptions& options) {
   if (const auto objection = rings_objection(scene))
     refuse("the rung \"rings\" is not valid for this scene", *objection, "use the rung \"photons\"");
   if (options.replicates < 1)
@@ -43,11 +51,6 @@ void check(const Scene& scene, std::span<const double> radii_mm, const RingsOpti
   if (options.bandwidth_mm2 && !(*options.bandwidth_mm2 > 0 && std::isfinite(*options.bandwidth_mm2)))
     refuse(fmt::format("bandwidth of {} mm^2", *options.bandwidth_mm2), "a bandwidth is positive and finite",
            "leave it out to have it chosen");
-  const double most_mm = cover_radius_mm(scene.near_field) * (1 + Tolerance::for_scale(1).length_mm);
-  for (double radius : radii_mm)
-    if (!(radius >= 0 && radius <= most_mm))
-      refuse(fmt::format("radius of {} mm", radius),
-             fmt::format("the near field reaches from the axis to {} mm", most_mm), "ask inside the field");
   if (options.edges_mm)
     for (double radius : *options.edges_mm)
       if (!(radius > 0 && std::isfinite(radius)))
@@ -167,8 +170,8 @@ class Sets {
   std::vector<std::uint64_t> photons_;
 };
 
-void estimate(const RingStore& store, std::span<const double> powers, std::span<const double> radii_mm,
-              const RingsOptions& options, RingsField& field) {
+void estimate_all(const RingStore& store, std::span<const double> powers, std::span<const double> radii_mm,
+                  const RingsOptions& options, RingsField& field) {
   const std::size_t count = radii_mm.size();
   for (auto* part : {&field.irradiance, &field.noise, &field.poisson_noise, &field.bias, &field.debiased,
                      &field.debiased_noise})
@@ -224,25 +227,68 @@ std::optional<std::string> rings_objection(const Scene& scene) {
   return std::nullopt;
 }
 
-RingsField rings_field(const Scene& scene, std::span<const double> radii_mm, const RingsOptions& options) {
-  check(scene, radii_mm, options);
+struct RingPhotons::Parts {
+  RingsOptions options;
+  double cover_mm;
+  double widest;  ///< bandwidth that the recorded range beyond the field's edge allows
+  std::unique_ptr<RingStore> store;
+  std::vector<double> powers;  ///< of a photon of each set
+  RingsField landed;           ///< what does not depend on radii and bandwidth
+};
+
+RingPhotons::RingPhotons(const Scene& scene, const RingsOptions& options) {
+  check(scene, options);
   const double cover_mm = cover_radius_mm(scene.near_field), cover = cover_mm * cover_mm;
   // Estimates at the field's edge look beyond it; a bandwidth to be chosen is narrower than a quarter.
   const double margin = options.bandwidth_mm2 ? std::min(*options.bandwidth_mm2, cover) : 0.25 * cover;
   const double end = scene.near_field.material() ? cover : cover + margin;
+  parts_.reset(new Parts{options, cover_mm, margin, nullptr, {}, {}});
   const Sets sets(scene, options);
-  RingsField field;
   const auto cuts = cuts_for(scene, options, end);
-  for (std::size_t i = 1; i + 1 < cuts.size(); ++i) field.edges_mm.push_back(std::sqrt(cuts[i]));
-  const auto store = sets.store(cuts);
-  const auto powers = sets.fly(*store, std::sqrt(end), field);
-  field.replicates = options.photons.photons > 0 ? powers.size() : 0;
-  field.bandwidth_mm2 = options.bandwidth_mm2 ? *options.bandwidth_mm2
-                                              : choose_bandwidth(*store, powers, options.kernel, cover);
-  store->prepare(field.bandwidth_mm2);
-  estimate(*store, powers, radii_mm, options, field);
-  field.memory_bytes = store->memory_bytes();
+  for (std::size_t i = 1; i + 1 < cuts.size(); ++i) parts_->landed.edges_mm.push_back(std::sqrt(cuts[i]));
+  parts_->store = sets.store(cuts);
+  parts_->powers = sets.fly(*parts_->store, std::sqrt(end), parts_->landed);
+  parts_->landed.replicates = options.photons.photons > 0 ? parts_->powers.size() : 0;
+}
+RingPhotons::~RingPhotons() = default;
+RingPhotons::RingPhotons(RingPhotons&&) noexcept = default;
+
+double RingPhotons::widest_bandwidth_mm2() const { return parts_->widest; }
+double RingPhotons::least_bandwidth_mm2() const { return parts_->store->least_bandwidth(); }
+const EnergyLedger& RingPhotons::energy() const { return parts_->landed.energy; }
+const PhotonCounts& RingPhotons::counts() const { return parts_->landed.counts; }
+
+RingsField RingPhotons::estimate(std::span<const double> radii_mm) {
+  const double cover = parts_->cover_mm * parts_->cover_mm;
+  const auto& wanted = parts_->options.bandwidth_mm2;
+  return estimate(
+      radii_mm,
+      wanted ? *wanted : choose_bandwidth(*parts_->store, parts_->powers, parts_->options.kernel, cover));
+}
+
+RingsField RingPhotons::estimate(std::span<const double> radii_mm, double bandwidth_mm2) {
+  check_radii(parts_->cover_mm, radii_mm);
+  RingsField field = parts_->landed;
+  field.bandwidth_mm2 = bandwidth_mm2;
+  parts_->store->prepare(bandwidth_mm2);
+  estimate_all(*parts_->store, parts_->powers, radii_mm, parts_->options, field);
+  field.memory_bytes = parts_->store->memory_bytes();
   return field;
+}
+
+RingsField rings_field(const Scene& scene, std::span<const double> radii_mm, const RingsOptions& options) {
+  check(scene, options);
+  check_radii(cover_radius_mm(scene.near_field), radii_mm);  // before any photon flies
+  return RingPhotons(scene, options).estimate(radii_mm);
+}
+
+std::vector<double> ring_radii_mm(const NearField& field, std::span<const FieldSample> samples) {
+  const double cover_mm = cover_radius_mm(field);
+  std::vector<double> radii;
+  radii.reserve(samples.size());
+  for (const FieldSample& sample : samples)
+    radii.push_back(std::min(std::hypot(sample.point_mm.x(), sample.point_mm.y()), cover_mm));
+  return radii;
 }
 
 }  // namespace catoptric::sim

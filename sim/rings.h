@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -62,16 +63,46 @@ std::optional<std::string> rings_objection(const Scene& scene);
 /// density is estimated in one dimension by boundary kernels, so that the axis (s = 0), the end of a real
 /// field and the sharp edges of the beam are not blurred. The near field may be any patch in a plane across
 /// the axis.
-/// @in    radii in [0, the farthest point of the near field]
+///
+/// The photons fly when this is made; they can then be looked at with any number of bandwidths.
 /// @out   the same bits for any number of threads
-/// @fails InputError where rings_objection() has one, for a bandwidth, edge or radius that is no positive
-///        finite number (a radius may be 0), no replicates; as trace_photons
+/// @fails InputError where rings_objection() has one, for a bandwidth or edge that is no positive finite
+///        number, no replicates; as trace_photons
 /// @error bias of second order in the bandwidth (`debiased`: fourth order), also on the axis and on edges;
 ///        noise of random photons like (photons bandwidth)^-1/2, of Sobol points traced in the plane like
 ///        (photons bandwidth)^-3/2 (sorted) or 1 / (photons bandwidth) (counted); a fold blurs like an edge
 ///        that is not known
 /// @cost  one intersection a photon where the mirror's shape excludes a second, 8 bytes a bin and replicate
 /// @from  Jones 1993
+class RingPhotons {
+ public:
+  RingPhotons(const Scene& scene, const RingsOptions& options);
+  ~RingPhotons();
+  RingPhotons(RingPhotons&&) noexcept;
+
+  /// Irradiance at radii with the bandwidth of the options, or the one chosen for these photons.
+  /// @in    radii in [0, the farthest point of the near field]
+  /// @fails InputError for another radius
+  RingsField estimate(std::span<const double> radii_mm);
+  /// The same with another bandwidth, no wider than widest_bandwidth_mm2().
+  RingsField estimate(std::span<const double> radii_mm, double bandwidth_mm2);
+
+  /// Farther from the field's edge no photon was recorded.
+  double widest_bandwidth_mm2() const;
+  /// What the storage can resolve.
+  double least_bandwidth_mm2() const;
+  const EnergyLedger& energy() const;
+  const PhotonCounts& counts() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Both in one: photons and their estimate.
 RingsField rings_field(const Scene& scene, std::span<const double> radii_mm, const RingsOptions& options);
+
+/// Distances of samples from the axis, none beyond the near field by a rounding.
+std::vector<double> ring_radii_mm(const NearField& field, std::span<const FieldSample> samples);
 
 }  // namespace catoptric::sim

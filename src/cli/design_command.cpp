@@ -24,6 +24,16 @@ ExitCode exit_code(optim::Ending ending) {
   }
 }
 
+/// An accuracy that was asked for and not proven is an unconverged end: files are there, and say so.
+ExitCode with_accuracy(ExitCode code, const design::Judgement& judgement) {
+  if (code != ExitCode::done || !judgement.accuracy || judgement.accuracy->proven) return code;
+  return stop_on_signal() ? ExitCode::interrupted : ExitCode::unconverged;
+}
+
+void print_accuracy(const design::Judgement& judgement) {
+  if (judgement.accuracy) fmt::print("{}\n", judgement.accuracy->sentence);
+}
+
 }  // namespace
 
 ExitCode design_command(const CommonOptions& options) {
@@ -39,12 +49,13 @@ ExitCode design_command(const CommonOptions& options) {
   line.finish();
   if (!options.quiet) {
     fmt::print("{}\n{}", result.search.sentence, report::text_table(report::summary_table(scene, result)));
-    fmt::print("{} evaluations, {} photons, {:.1f} s\n", result.search.evaluations, result.photons,
-               result.seconds);
+    print_accuracy(result.best.judgement);
+    fmt::print("{} evaluations in {:.3g} s, {} photons, {:.3g} s in all\n", result.search.evaluations,
+               result.search_seconds, result.photons, result.seconds);
     for (const std::string& note : files.notes) fmt::print("note: {}\n", note);
     fmt::print("written to {}: {}\n", out.string(), fmt::join(files.names, ", "));
   }
-  return exit_code(result.search.ending);
+  return with_accuracy(exit_code(result.search.ending), result.best.judgement);
 }
 
 ExitCode simulate_command(const CommonOptions& options) {
@@ -59,11 +70,12 @@ ExitCode simulate_command(const CommonOptions& options) {
   line.finish();
   if (!options.quiet) {
     fmt::print("{}", report::text_table(report::simulation_table(scene, result)));
-    fmt::print("{} photons, {:.1f} s\n", result.photons, result.seconds);
+    print_accuracy(result.mirror.judgement);
+    fmt::print("{} photons, {:.3g} s\n", result.photons, result.seconds);
     for (const std::string& note : files.notes) fmt::print("note: {}\n", note);
     fmt::print("written to {}: {}\n", out.string(), fmt::join(files.names, ", "));
   }
-  return ExitCode::done;
+  return with_accuracy(ExitCode::done, result.mirror.judgement);
 }
 
 }  // namespace catoptric::cli

@@ -6,13 +6,30 @@
 
 namespace catoptric::cli {
 
+namespace {
+
+void print_plan(const char* title, const sim::Plan& plan) {
+  fmt::print("{}\n", title);
+  for (const sim::Finding& finding : plan.findings)
+    fmt::print("  {:<22}  {}: {}\n", finding.feature, finding.found, finding.consequence);
+}
+
+}  // namespace
+
 ExitCode explain_command(const CommonOptions& options) {
   const design::Scene scene = design::read_scene(options.input, options.overrides());
-  const sim::Plan plan = design::search_plan(scene, design::start_profile(scene));
-  for (const sim::Finding& finding : plan.findings)
-    fmt::print("{:<20}  {}: {}\n", finding.feature, finding.found, finding.consequence);
-  fmt::print("{:<20}  {}\n", "verdict",
-             "photons on fresh random numbers, with noise and bias, whatever the rung of the search");
+  const Profile profile = design::start_profile(scene);
+  print_plan("simulate computes the light so:", design::simulation_plan(scene, profile));
+  if (scene.accuracy_rel)
+    fmt::print("  {:<22}  photons and bandwidth are found until the relative error is at most {:g} (95 %)\n",
+               "accuracy", *scene.accuracy_rel);
+  if (!scene.variables.empty()) {
+    fmt::print("\n");
+    print_plan("design and landscape search so:", design::make_plan(scene, profile));
+    fmt::print(
+        "  {:<22}  photons on fresh random numbers, with noise and bias, whatever the rung of the search\n",
+        "verdict");
+  }
   return ExitCode::done;
 }
 

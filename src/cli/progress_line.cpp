@@ -25,6 +25,7 @@ std::string ProgressLine::text(const design::Progress& progress) const {
   std::string line = prefix_.empty() ? progress.phase : prefix_ + ", " + progress.phase;
   if (!std::isnan(progress.best)) line += fmt::format("  best {:.4g} {}", progress.best, unit_);
   if (progress.evaluations > 0) line += fmt::format("  {} evaluations", progress.evaluations);
+  if (!progress.note.empty()) line += "  " + progress.note;
   const double passed = std::chrono::duration<double>(Clock::now() - phase_begin_).count();
   if (progress.share > 0.02 && progress.share < 1)  // before that a guess of the end means nothing
     line += fmt::format("  about {:.0f} s left", passed * (1 - progress.share) / progress.share);

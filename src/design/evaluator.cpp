@@ -1,27 +1,16 @@
 #include "design/evaluator.h"
 
 #include <cmath>
+#include <optional>
 
 #include "base/contract.h"
 #include "base/ordered_sum.h"
-#include "cad/engines.h"
-#include "sim/source.h"
+#include "design/stage.h"
+#include "sim/rings.h"
 #include "sim/tubes.h"
 
 namespace catoptric::design {
 namespace {
-
-/// What one evaluation borrows: the mirror in the engine the scene asks for, and the source.
-struct Stage {
-  Stage(const Scene& spec, const Profile& profile)
-      : source(spec.source.position_mm, spec.source.power_w),
-        mirror(spec.model.engine == Engine::occt ? cad::make_occt_reflector(profile)
-                                                 : cad::make_meridian_reflector(profile)),
-        scene{source, *mirror, spec.mirror, spec.near_field} {}
-  sim::PointSource source;
-  std::unique_ptr<Reflector> mirror;
-  sim::Scene scene;
-};
 
 /// Error asked of tubes, as a share of the irradiance that all of the source's power would give the near
 /// field: 1e-6 W/m^2 in the paper's scene.
@@ -38,56 +27,122 @@ sim::PhotonOptions photon_options(const Scene& scene, std::uint64_t stream) {
   return options;
 }
 
+/// Reflected light by tubes under the scene's kernel, or a narrower one; nothing where their bound is not
+/// met.
+std::optional<std::vector<double>> reflected_by_tubes(const Scene& scene, const sim::Scene& stage,
+                                                      std::span<const sim::FieldSample> samples,
+                                                      double kernel_radius_mm) {
+  sim::TubesOptions options;
+  options.kernel_radius_mm = kernel_radius_mm;
+  options.most_interactions = scene.model.photons.most_interactions;
+  options.tolerance_w_per_mm2 = tubes_tolerance_rel * scene.source.power_w / scene.near_field.area_mm2();
+  options.most_rays = most_tube_rays;
+  sim::TubesField tubes = sim::tubes_field(stage, samples, options);
+  if (!(tubes.error_w_per_mm2 <= tubes_accepted * options.tolerance_w_per_mm2)) return std::nullopt;
+  return std::move(tubes.irradiance);
+}
+
+/// Rings whose estimates look at the same area as the scene's kernel.
+sim::RingsField rings(const Scene& scene, const sim::Scene& stage, std::span<const sim::FieldSample> samples,
+                      std::uint64_t stream) {
+  sim::RingsOptions options;
+  options.photons = photon_options(scene, stream);
+  options.replicates = 1;
+  const double radius_mm = *scene.model.estimate.kernel_radius_mm;
+  options.bandwidth_mm2 = 0.5 * radius_mm * radius_mm;
+  options.kernel = scene.model.estimate.kernel == sim::Kernel::epanechnikov ? sim::RingKernel::epanechnikov
+                                                                            : sim::RingKernel::biweight;
+  return sim::rings_field(stage, sim::ring_radii_mm(scene.near_field, samples), options);
+}
+
 /// Half the kernel's area: half the neighbours, or the radius over root two.
-sim::EstimateOptions half_bandwidth(sim::EstimateOptions options) {
+sim::EstimateOptions half_area(sim::EstimateOptions options) {
   if (options.neighbours) options.neighbours = std::max<std::size_t>(1, *options.neighbours / 2);
   if (options.kernel_radius_mm) *options.kernel_radius_mm *= std::sqrt(0.5);
   return options;
 }
 
-}  // namespace
-
-sim::FieldEstimate estimate_field(const Scene& scene, const Profile& profile,
-                                  std::span<const sim::FieldSample> samples, std::uint64_t stream) {
-  const Stage stage(scene, profile);
-  return sim::simulate(stage.scene, samples, photon_options(scene, stream), scene.model.estimate);
+/// For a kernel of second order E_r - E = c r^2, so halving the area halves the blur.
+std::vector<double> extrapolated(std::span<const double> wide, std::span<const double> narrow) {
+  std::vector<double> sharp(wide.size());
+  for (std::size_t i = 0; i < sharp.size(); ++i) sharp[i] = 2 * narrow[i] - wide[i];
+  return sharp;
 }
 
-sim::Plan search_plan(const Scene& scene, const Profile& profile) {
-  const Stage stage(scene, profile);
-  return sim::make_plan(stage.scene, scene.model.estimate, scene.model.rung);
+double mean(std::span<const double> values) {
+  return ordered_sum(values) / static_cast<double>(values.size());
 }
 
-std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
-                                  std::span<const sim::FieldSample> samples, std::uint64_t stream) {
-  if (rung == sim::Rung::photons) return total(estimate_field(scene, profile, samples, stream));
-  const Stage stage(scene, profile);
-  sim::TubesOptions options;
-  options.kernel_radius_mm = *scene.model.estimate.kernel_radius_mm;
-  options.most_interactions = scene.model.photons.most_interactions;
-  options.tolerance_w_per_mm2 = tubes_tolerance_rel * scene.source.power_w / scene.near_field.area_mm2();
-  options.most_rays = most_tube_rays;
-  sim::TubesField tubes = sim::tubes_field(stage.scene, samples, options);
-  // Cavities can need more tubes than photons are worth: a bound that is not met is not believed.
-  if (!(tubes.error_w_per_mm2 <= tubes_accepted * options.tolerance_w_per_mm2))
-    return total(estimate_field(scene, profile, samples, stream));
-  std::vector<double> sum = std::move(tubes.irradiance);
-  const std::vector<double> direct = sim::direct_field(stage.scene, samples);
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += direct[i];
-  return sum;
-}
-
-FieldPair estimate_field_pair(const Scene& scene, const Profile& profile,
-                              std::span<const sim::FieldSample> samples, std::uint64_t stream) {
-  const Stage stage(scene, profile);
+Evaluation evaluate_by_photons(const Scene& scene, const Stage& stage,
+                               std::span<const sim::FieldSample> samples, std::uint64_t stream) {
   const sim::EstimateOptions& full = scene.model.estimate;
   const sim::TracedPhotons photons = sim::trace_photons(stage.scene, photon_options(scene, stream),
                                                         sim::recording_margin_mm(scene.near_field, full));
   const sim::PhotonMap map(scene.near_field, photons);
-  sim::MapEstimate blurred = map.estimate(samples, full);
-  return {{sim::direct_field(stage.scene, samples), std::move(blurred.irradiance), std::move(blurred.noise),
-           std::move(blurred.kernel_radius_mm), photons.energy, photons.counts},
-          map.estimate(samples, half_bandwidth(full)).irradiance};
+  sim::MapEstimate wide = map.estimate(samples, full);
+  std::vector<double> sharp =
+      extrapolated(wide.irradiance, map.estimate(samples, half_area(full)).irradiance);
+  return {sim::Rung::photons,
+          sim::direct_field(stage.scene, samples),
+          std::move(wide.irradiance),
+          std::move(sharp),
+          mean(wide.kernel_radius_mm),
+          photons.energy,
+          photons.counts};
+}
+
+Evaluation evaluate_by_rings(const Scene& scene, const Stage& stage,
+                             std::span<const sim::FieldSample> samples, std::uint64_t stream) {
+  sim::RingsField field = rings(scene, stage.scene, samples, stream);
+  const double radius_mm = field.kernel_radius_mm();
+  return {sim::Rung::rings,
+          sim::direct_field(stage.scene, samples),
+          std::move(field.irradiance),
+          std::move(field.debiased),
+          radius_mm,
+          field.energy,
+          field.counts};
+}
+
+}  // namespace
+
+sim::Plan make_plan(const Scene& scene, const Profile& profile) {
+  const Stage stage(scene, profile);
+  return sim::make_plan(stage.scene, model_request(scene));
+}
+
+std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
+                                  std::span<const sim::FieldSample> samples, std::uint64_t stream) {
+  const Stage stage(scene, profile);
+  const std::vector<double> direct = sim::direct_field(stage.scene, samples);
+  if (rung == sim::Rung::tubes)
+    if (const auto reflected =
+            reflected_by_tubes(scene, stage.scene, samples, *scene.model.estimate.kernel_radius_mm))
+      return sum(direct, *reflected);
+  if (rung == sim::Rung::rings) return sum(direct, rings(scene, stage.scene, samples, stream).irradiance);
+  const sim::TracedPhotons photons =
+      sim::trace_photons(stage.scene, photon_options(scene, stream),
+                         sim::recording_margin_mm(scene.near_field, scene.model.estimate));
+  return sum(direct,
+             sim::PhotonMap(scene.near_field, photons).estimate(samples, scene.model.estimate).irradiance);
+}
+
+Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
+                            std::span<const sim::FieldSample> samples, std::uint64_t stream) {
+  const Stage stage(scene, profile);
+  if (rung == sim::Rung::rings) return evaluate_by_rings(scene, stage, samples, stream);
+  if (rung == sim::Rung::tubes) {
+    const double radius_mm = *scene.model.estimate.kernel_radius_mm;
+    auto wide = reflected_by_tubes(scene, stage.scene, samples, radius_mm);
+    const auto narrow = reflected_by_tubes(scene, stage.scene, samples, std::sqrt(0.5) * radius_mm);
+    if (wide && narrow) {
+      std::vector<double> sharp = extrapolated(*wide, *narrow);
+      return {
+          rung, sim::direct_field(stage.scene, samples), std::move(*wide), std::move(sharp), radius_mm, {},
+          {}};
+    }
+  }
+  return evaluate_by_photons(scene, stage, samples, stream);
 }
 
 double root_mean_square_error(std::span<const double> values, std::span<const double> target) {
@@ -102,10 +157,10 @@ double root_mean_square(std::span<const double> values) {
   return root_mean_square_error(values, std::vector<double>(values.size(), 0.0));
 }
 
-std::vector<double> total(const sim::FieldEstimate& field) {
-  std::vector<double> sum(field.direct.size());
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = field.direct[i] + field.reflected[i];
-  return sum;
+std::vector<double> sum(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> total(a.size());
+  for (std::size_t i = 0; i < total.size(); ++i) total[i] = a[i] + b[i];
+  return total;
 }
 
 double objective(const Scene& scene, std::span<const double> total_w_per_mm2,

@@ -8,34 +8,39 @@
 
 namespace catoptric::design {
 
-/// The light of one mirror in the scene, by the photons of one stream.
-sim::FieldEstimate estimate_field(const Scene& scene, const Profile& profile,
-                                  std::span<const sim::FieldSample> samples, std::uint64_t stream);
-
 /// What the search computes a mirror's light with in this scene, and why.
 /// @fails InputError when the scene forces a rung that is not valid
-sim::Plan search_plan(const Scene& scene, const Profile& profile);
+sim::Plan make_plan(const Scene& scene, const Profile& profile);
 
 /// The light of one mirror by a rung: total irradiance at the samples, W/mm^2. Photons come from `stream`;
 /// they also stand in where tubes cannot meet their error bound (cavities with very many paths).
 std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
                                   std::span<const sim::FieldSample> samples, std::uint64_t stream);
 
-/// The same photons seen with two bandwidths: the scene's, and the one of half the kernel area that shows the
-/// bias.
-struct FieldPair {
-  sim::FieldEstimate field;
-  std::vector<double> half_area_reflected;  ///< W/mm^2
+/// The light of one mirror by one set of random numbers, or by none, W/mm^2 at the samples.
+struct Evaluation {
+  sim::Rung rung;                 ///< photons also stand in for tubes that cannot meet their error bound
+  std::vector<double> direct;     ///< computed, with occlusion by the mirror
+  std::vector<double> reflected;  ///< as the scene's kernel shows it
+  std::vector<double> sharp;      ///< the same with the kernel's blur extrapolated away
+  double kernel_radius_mm = 0;    ///< mean over the samples
+  sim::EnergyLedger energy;       ///< of photons; empty for tubes
+  sim::PhotonCounts counts;
 };
-FieldPair estimate_field_pair(const Scene& scene, const Profile& profile,
-                              std::span<const sim::FieldSample> samples, std::uint64_t stream);
+
+/// Evaluates a mirror with two bandwidths, whose difference shows the kernel's blur.
+/// @error the blur is extrapolated from two kernel areas (photons, tubes) or from kernels of two orders
+///        (rings): right where the field is smooth over a kernel, too small at jumps and caustics
+/// @from  Richardson extrapolation of a kernel of second order: Schucany & Sommers 1977
+Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
+                            std::span<const sim::FieldSample> samples, std::uint64_t stream);
 
 /// Root of the mean squared difference.  @from paper eq. 7
 double root_mean_square_error(std::span<const double> values, std::span<const double> target);
 double root_mean_square(std::span<const double> values);
 
-/// Direct plus reflected.
-std::vector<double> total(const sim::FieldEstimate& field);
+/// Element by element.
+std::vector<double> sum(std::span<const double> a, std::span<const double> b);
 
 /// The scene's metric of a field against its target: W/m^2, or a ratio for relative-rmse.
 double objective(const Scene& scene, std::span<const double> total_w_per_mm2,

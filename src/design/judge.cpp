@@ -1,27 +1,34 @@
 #include "design/judge.h"
 
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "base/ordered_sum.h"
 #include "design/evaluator.h"
+#include "design/stage.h"
 
 namespace catoptric::design {
 namespace {
 
-/// Mean and variance of the mean, sample by sample, over replicates.
+/// Mean and variance of the mean, sample by sample, over replicates; one replicate has no variance.
 struct Spread {
   std::vector<double> mean, variance_of_mean;
 };
 
-Spread spread(const std::vector<std::vector<double>>& rows) {
+using Rows = std::vector<std::vector<double>>;
+
+constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+/// @in left_out: the replicate not counted, or none
+Spread spread(const Rows& rows, std::size_t left_out = none) {
   const std::size_t count = rows.front().size();
-  const double n = static_cast<double>(rows.size());
+  const double n = static_cast<double>(rows.size() - (left_out == none ? 0 : 1));
   Spread result{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
-  for (const auto& row : rows)
-    for (std::size_t j = 0; j < count; ++j) result.mean[j] += row[j] / n;
-  for (const auto& row : rows)
-    for (std::size_t j = 0; j < count; ++j) {
-      const double off = row[j] - result.mean[j];
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; i != left_out && j < count; ++j) result.mean[j] += rows[i][j] / n;
+  for (std::size_t i = 0; n > 1 && i < rows.size(); ++i)
+    for (std::size_t j = 0; i != left_out && j < count; ++j) {
+      const double off = rows[i][j] - result.mean[j];
       result.variance_of_mean[j] += off * off / (n * (n - 1));
     }
   return result;
@@ -39,12 +46,34 @@ double debiased_root(double mean_square, double noise_square) {
 /// The objective a field without noise and blur would have.
 double debiased_objective(const Scene& scene, const Target& target, const Spread& sharp,
                           const std::vector<double>& direct) {
-  std::vector<double> field(sharp.mean);
-  for (std::size_t j = 0; j < field.size(); ++j) field[j] += direct[j];
-  const double rmse = root_mean_square_error(field, target.irradiance_w_per_mm2);
+  const double rmse = root_mean_square_error(sum(sharp.mean, direct), target.irradiance_w_per_mm2);
   const double clean = debiased_root(rmse * rmse, mean(sharp.variance_of_mean));
   return scene.search.metric == Metric::rmse ? to_w_per_m2(clean)
                                              : clean / root_mean_square(target.irradiance_w_per_mm2);
+}
+
+/// Half width, in standard errors, of an interval that holds the truth with a probability of 95 %.
+double student95(std::size_t replicates) {
+  if (replicates < 2) return 0;
+  const boost::math::students_t student(static_cast<double>(replicates - 1));
+  return boost::math::quantile(boost::math::complement(student, 0.025));
+}
+
+Figure judge_objective(const Scene& scene, const Target& target, const Rows& reflected, const Rows& sharp,
+                       const std::vector<double>& direct) {
+  Rows values;
+  for (const auto& field : reflected)
+    values.push_back({objective(scene, sum(direct, field), target.irradiance_w_per_mm2)});
+  const Spread value = spread(values);
+  Figure figure{value.mean[0], std::sqrt(value.variance_of_mean[0]), 0, 0};
+  figure.bias = figure.value - debiased_objective(scene, target, spread(sharp), direct);
+  if (sharp.size() < 3) return figure;  // without one of two there is no spread left
+  Rows without;
+  for (std::size_t i = 0; i < sharp.size(); ++i)
+    without.push_back({debiased_objective(scene, target, spread(sharp, i), direct)});
+  const double shrunk = static_cast<double>(sharp.size() - 1);  // what leaving one out hides of the spread
+  figure.half_interval = student95(sharp.size()) * shrunk * std::sqrt(spread(without).variance_of_mean[0]);
+  return figure;
 }
 
 void add(sim::EnergyLedger& sum, const sim::EnergyLedger& part, double share) {
@@ -63,51 +92,94 @@ void add(sim::PhotonCounts& sum, const sim::PhotonCounts& part) {
   sum.interactions += part.interactions;
 }
 
-}  // namespace
-
-Judgement judge(const Scene& scene, const Target& target, const Profile& profile,
-                std::uint64_t first_stream) {
-  Judgement judgement;
-  judgement.photons = scene.model.photons.photons;
-  judgement.replicates = scene.model.replicates;
-  judgement.has_objective = !target.irradiance_w_per_mm2.empty();
-  std::vector<std::vector<double>> blurred, blur, sharp;
-  std::vector<double> objectives, radii;
-  for (std::uint64_t i = 0; i < scene.model.replicates; ++i) {
-    const FieldPair pair = estimate_field_pair(scene, profile, target.samples, first_stream + i);
-    blurred.push_back(pair.field.reflected);
-    // For a kernel of second order E_r - E = c r^2, so halving the area halves the blur.
-    blur.emplace_back(pair.field.reflected.size());
-    sharp.emplace_back(pair.field.reflected.size());
-    for (std::size_t j = 0; j < pair.field.reflected.size(); ++j) {
-      blur.back()[j] = 2 * (pair.field.reflected[j] - pair.half_area_reflected[j]);
-      sharp.back()[j] = pair.field.reflected[j] - blur.back()[j];
-    }
-    judgement.direct = pair.field.direct;
-    radii.push_back(mean(pair.field.kernel_radius_mm));
-    if (judgement.has_objective)
-      objectives.push_back(objective(scene, total(pair.field), target.irradiance_w_per_mm2));
-    add(judgement.energy, pair.field.energy, 1.0 / static_cast<double>(scene.model.replicates));
-    add(judgement.counts, pair.field.counts);
-  }
-  const Spread field = spread(blurred), blur_spread = spread(blur);
+/// What follows from the replicates' fields alone.
+void fill_fields(Judgement& judgement, const Rows& reflected, const Rows& sharp) {
+  Rows blur(reflected.size());
+  for (std::size_t i = 0; i < blur.size(); ++i)
+    for (std::size_t j = 0; j < reflected[i].size(); ++j) blur[i].push_back(reflected[i][j] - sharp[i][j]);
+  const Spread field = spread(reflected), blur_spread = spread(blur);
   judgement.reflected = field.mean;
   judgement.bias = blur_spread.mean;
   for (double variance : field.variance_of_mean) judgement.noise.push_back(std::sqrt(variance));
-  judgement.kernel_radius_mm = mean(radii);
+  for (double variance : spread(sharp).variance_of_mean)
+    judgement.half_interval.push_back(student95(sharp.size()) * std::sqrt(variance));
   judgement.field_noise_w_per_mm2 =
-      std::sqrt(mean(field.variance_of_mean) * static_cast<double>(scene.model.replicates));
+      std::sqrt(mean(field.variance_of_mean) * static_cast<double>(reflected.size()));
   const double blur_rms = root_mean_square(judgement.bias);
   judgement.field_bias_w_per_mm2 = debiased_root(blur_rms * blur_rms, mean(blur_spread.variance_of_mean));
-  if (judgement.has_objective) {
-    std::vector<std::vector<double>> rows;
-    for (double value : objectives) rows.push_back({value});
-    const Spread value = spread(rows);
-    judgement.objective.value = value.mean[0];
-    judgement.objective.noise = std::sqrt(value.variance_of_mean[0]);
-    judgement.objective.bias =
-        value.mean[0] - debiased_objective(scene, target, spread(sharp), judgement.direct);
+}
+
+std::vector<Evaluation> evaluations(const Scene& scene, const Target& target, const Profile& profile,
+                                    sim::Rung rung, std::uint64_t first_stream) {
+  std::vector<Evaluation> list{evaluate_by_rung(scene, rung, profile, target.samples, first_stream)};
+  if (list.front().rung == sim::Rung::tubes) return list;
+  for (std::uint64_t i = 1; i < scene.model.replicates; ++i)
+    list.push_back(evaluate_by_rung(scene, list.front().rung, profile, target.samples, first_stream + i));
+  return list;
+}
+
+AccuracyReport report_of(const sim::AccurateField& field, double asked_rel) {
+  return {asked_rel,      field.noise_rel, field.bias_rel,      field.error95_rel, field.proven,
+          field.sentence, field.order,     field.spent_photons, field.rays,        field.stages};
+}
+
+}  // namespace
+
+Judgement judge(const Scene& scene, const Target& target, const Profile& profile, sim::Rung rung,
+                std::uint64_t first_stream) {
+  std::vector<Evaluation> list = evaluations(scene, target, profile, rung, first_stream);
+  Judgement judgement;
+  judgement.rung = list.front().rung;
+  const bool random = judgement.rung != sim::Rung::tubes;
+  judgement.photons = random ? scene.model.photons.photons : 0;
+  judgement.replicates = list.size();
+  judgement.direct = list.front().direct;
+  judgement.has_objective = !target.irradiance_w_per_mm2.empty();
+  Rows reflected, sharp;
+  const double share = 1.0 / static_cast<double>(list.size());
+  for (Evaluation& each : list) {
+    reflected.push_back(std::move(each.reflected));
+    sharp.push_back(std::move(each.sharp));
+    judgement.kernel_radius_mm += share * each.kernel_radius_mm;
+    add(judgement.energy, each.energy, share);
+    add(judgement.counts, each.counts);
   }
+  fill_fields(judgement, reflected, sharp);
+  if (judgement.has_objective)
+    judgement.objective = judge_objective(scene, target, reflected, sharp, judgement.direct);
+  return judgement;
+}
+
+Judgement judge_to_accuracy(const Scene& scene, const Target& target, const Profile& profile,
+                            std::uint64_t first_stream, bool fresh_photons_only,
+                            const std::function<bool(std::uint64_t, double)>& watch) {
+  const Stage stage(scene, profile);
+  sim::AccuracyRequest request;
+  request.relative = *scene.accuracy_rel;
+  request.model = model_request(scene);
+  request.model.estimate = {};
+  request.photons = scene.model.photons;
+  request.photons.stream = first_stream;
+  request.most_photons = scene.model.most_photons;
+  request.fresh_photons_only = fresh_photons_only;
+  request.watch = watch;
+  sim::AccurateField field = sim::reach_accuracy(stage.scene, target.samples, request);
+  Judgement judgement;
+  judgement.rung = field.rung;
+  judgement.accuracy = report_of(field, request.relative);
+  judgement.photons = field.photons;
+  judgement.replicates = field.sets;
+  judgement.kernel_radius_mm = field.kernel_radius_mm;
+  judgement.energy = field.energy;
+  judgement.counts = field.counts;
+  judgement.direct = std::move(field.direct);
+  judgement.has_objective = !target.irradiance_w_per_mm2.empty();
+  fill_fields(judgement, field.by_set, field.by_set);
+  judgement.field_bias_w_per_mm2 =
+      field.bias_rel * root_mean_square(sum(judgement.direct, judgement.reflected));
+  if (judgement.has_objective)
+    judgement.objective = judge_objective(scene, target, field.by_set, field.by_set, judgement.direct);
+  judgement.reflected = std::move(field.reflected);
   return judgement;
 }
 

@@ -1,43 +1,71 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "design/scene.h"
 #include "design/target.h"
+#include "sim/accuracy.h"
 
 namespace catoptric::design {
 
-/// The objective with what is known of its error: the truth lies near value - bias, give or take noise.
+/// The objective with what is known of its error: the truth lies near value - bias.
 struct Figure {
   double value = 0;  ///< mean over replicates of the objective as the search computes it
   double noise = 0;  ///< standard error of `value`, from the replicates' spread
   double bias = 0;   ///< estimated systematic part of `value`: photon noise that eq. 7 counts as error, and
                      ///< the kernel's blur
+  double half_interval = 0;  ///< value - bias give or take this holds the truth with a probability of 95 %
+};
+
+/// How an accuracy that the scene asked for was reached.
+struct AccuracyReport {
+  double asked_rel = 0, noise_rel = 0, bias_rel = 0, error95_rel = 0;
+  bool proven = false;
+  std::string sentence;
+  int order = 0;
+  std::uint64_t spent_photons = 0;
+  int rays = 0;
+  std::vector<sim::AccuracyStage> stages;
 };
 
 /// A mirror judged on random streams that no search used.
 struct Judgement {
+  sim::Rung rung = sim::Rung::photons;
   Figure objective;  ///< in the metric's unit; all 0 when the scene has no target
   bool has_objective = false;
-  double kernel_radius_mm = 0;  ///< mean over the samples
+  double kernel_radius_mm = 0;  ///< mean over the samples; 0: the field itself, without a kernel
   std::uint64_t photons = 0;    ///< of one evaluation
   std::uint64_t replicates = 0;
   std::vector<double> direct, reflected;  ///< W/mm^2, means over replicates
   std::vector<double> noise;              ///< W/mm^2, standard error of `reflected`
   std::vector<double> bias;               ///< W/mm^2, estimated kernel blur of `reflected`
-  double field_noise_w_per_mm2 = 0;       ///< root mean square over the samples of one evaluation's noise
-  double field_bias_w_per_mm2 = 0;        ///< root mean square of `bias`, its own noise taken off
-  sim::EnergyLedger energy;               ///< mean over replicates
-  sim::PhotonCounts counts;               ///< sum over replicates
+  std::vector<double> half_interval;  ///< W/mm^2: reflected - bias give or take this holds the truth, 95 %
+  double field_noise_w_per_mm2 = 0;   ///< root mean square over the samples of one evaluation's noise
+  double field_bias_w_per_mm2 = 0;    ///< root mean square of `bias`, its own noise taken off
+  sim::EnergyLedger energy;           ///< mean over replicates; empty for tubes
+  sim::PhotonCounts counts;           ///< sum over replicates
+  std::optional<AccuracyReport> accuracy;  ///< where the scene asks for one
 };
 
-/// Judges a mirror by `model.replicates` independent evaluations, each with two bandwidths.
+/// Judges a mirror by `model.replicates` independent evaluations of a rung, each with two bandwidths; tubes,
+/// in which nothing is random, are evaluated once.
 /// @error the blur is extrapolated from two kernel areas: right where the field is smooth over a kernel, too
-/// small at
-///        jumps and caustics
-/// @from  noise: spread of replicates; bias: Richardson extrapolation of a kernel of second order (Silverman
-/// 1986,
-///        section 3.3)
-Judgement judge(const Scene& scene, const Target& target, const Profile& profile, std::uint64_t first_stream);
+///        small at jumps and caustics; the intervals are as good as it is
+/// @from  noise: spread of replicates, Student's t; bias: Richardson extrapolation of a kernel of second
+/// order
+///        (Silverman 1986, section 3.3); the objective's interval: jackknife over the replicates (Miller
+///        1974)
+Judgement judge(const Scene& scene, const Target& target, const Profile& profile, sim::Rung rung,
+                std::uint64_t first_stream);
+
+/// Judges a mirror with as many photons as the scene's accuracy takes. The field is the irradiance itself;
+/// the kernel's blur has been extrapolated away and what may be left of it is in the report.
+/// @in    the scene asks for an accuracy; fresh_photons_only: not by tubes, which the search may have used
+/// @fails as sim::reach_accuracy
+Judgement judge_to_accuracy(const Scene& scene, const Target& target, const Profile& profile,
+                            std::uint64_t first_stream, bool fresh_photons_only,
+                            const std::function<bool(std::uint64_t, double)>& watch);
 
 }  // namespace catoptric::design

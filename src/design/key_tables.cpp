@@ -18,6 +18,8 @@ const std::vector<Key>& scene_table() {
       {.path = "seed", .type = integer, .least = 0, .greatest = 9e15, .standard = "1", .meaning = "key of all random numbers"},
       {.path = "threads", .type = integer, .least = 0, .greatest = 1024, .standard = "0", .meaning = "threads to use; 0: one per core. Results do not depend on it"},
 
+      {.path = "accuracy", .type = number, .least = 0, .greatest = 1, .least_excluded = true, .meaning = "relative root mean square error allowed in every reported field, with 95 % probability; the program then finds rung, photons and bandwidth itself and says what it spent"},
+
       {.path = "source.kind", .type = choice, .choices = {"point"}, .standard = "\"point\"", .meaning = "a point that radiates alike in all directions"},
       {.path = "source.position", .type = numbers, .quantity = Q::length, .least = -far, .greatest = far, .count = 3, .standard = "[0.0, 0.0, 0.0]", .meaning = "x, y, z of the source"},
       {.path = "source.power", .type = number, .quantity = Q::power_w, .least = 0, .greatest = 1e12, .least_excluded = true, .meaning = "radiant power of the source, W"},
@@ -59,7 +61,7 @@ const std::vector<Key>& scene_table() {
       {.path = "target.file", .type = text, .meaning = "csv: table with columns x, y, z in the scene's unit and the irradiance in W/m^2; its points replace the near field's samples"},
       {.path = "target.column", .type = text, .meaning = "csv: name of the column that holds the irradiance"},
 
-      {.path = "model.rung", .type = choice, .choices = {"auto", "tubes", "photons"}, .standard = "\"auto\"", .meaning = "how a search and a landscape compute the light: ray tubes without noise where the scene allows, or photons; verdicts are always by photons"},
+      {.path = "model.rung", .type = choice, .choices = {"auto", "tubes", "rings", "photons"}, .standard = "\"auto\"", .meaning = "how light is computed: ray tubes without noise, photons folded about the axis, or photons in space; auto takes the first of these that is valid. The verdict on a design is by photons in any case"},
       {.path = "model.engine", .type = choice, .choices = {"auto", "meridian", "occt"}, .standard = "\"auto\"", .meaning = "how rays meet the mirror; occt is the slow reference"},
       {.path = "model.photons", .type = integer, .least = 0, .greatest = 1e10, .standard = "100000", .meaning = "photons emitted for one evaluation"},
       {.path = "model.neighbours", .type = integer, .least = 1, .greatest = 1e9, .meaning = "photons in one estimate (the paper's N); not together with kernel_radius"},
@@ -67,6 +69,7 @@ const std::vector<Key>& scene_table() {
       {.path = "model.kernel", .type = choice, .choices = {"silverman", "epanechnikov", "cone", "gaussian", "constant"}, .standard = "\"silverman\"", .meaning = "weight of a photon by its distance"},
       {.path = "model.sampler", .type = choice, .choices = {"random", "sobol"}, .standard = "\"sobol\"", .meaning = "independent random photons, or Owen-scrambled Sobol points"},
       {.path = "model.replicates", .type = integer, .least = 2, .greatest = 1000, .standard = "8", .meaning = "independent repetitions behind every reported figure, which give its noise"},
+      {.path = "model.most_photons", .type = integer, .least = 10000, .greatest = 1e12, .standard = "100000000", .meaning = "photons that proving an accuracy may spend"},
       {.path = "model.interactions", .type = integer, .least = 1, .greatest = 1e6, .standard = "1000", .meaning = "a photon is stopped after so many meetings with surfaces"},
 
       {.path = "search.method", .type = choice, .choices = {"hooke-jeeves"}, .standard = "\"hooke-jeeves\"", .meaning = "how better mirrors are looked for"},

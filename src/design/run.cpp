@@ -1,10 +1,13 @@
 #include "design/run.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "design/evaluator.h"
+#include "design/stage.h"
 #include "design/variables.h"
 #include "optim/hooke_jeeves.h"
 
@@ -66,6 +69,22 @@ void need_light(const Scene& scene, const Target& target) {
                                "search.metric = \"rmse\"");
 }
 
+std::uint64_t emitted(const Judgement& judgement) {
+  return judgement.accuracy ? judgement.accuracy->spent_photons : judgement.photons * judgement.replicates;
+}
+
+/// Shows how near an accuracy is, and stops with what there is when the user wants to.
+std::function<bool(std::uint64_t, double)> watch_accuracy(const Scene& scene, const RunControl& control,
+                                                          const char* phase) {
+  return [&control, phase, asked_rel = *scene.accuracy_rel](std::uint64_t photons, double error95_rel) {
+    const double share = std::isfinite(error95_rel) ? std::min(1.0, asked_rel / error95_rel) : 0.0;
+    control.tell({phase, share * share, std::numeric_limits<double>::quiet_NaN(),
+                  0,  // error falls like 1 / sqrt
+                  fmt::format("{} photons: relative error at most {:.2g}", photons, error95_rel)});
+    return !control.stopped();
+  };
+}
+
 optim::Outcome search(const Scene& scene, sim::Rung rung, const Target& target, const RunControl& control) {
   const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
   long evaluations = 0;
@@ -110,38 +129,56 @@ DesignResult run_design(const Scene& scene, const RunControl& control) {
                                "[variables.w1] with step, lower and upper");
   need_target(scene, "design");
   const Profile start = start_profile(scene);
-  sim::Plan plan = search_plan(scene, start);
+  sim::Plan plan = make_plan(scene, start);
   const Stopwatch watch;
   Target target = make_target(scene);
   need_light(scene, target);
   optim::Outcome outcome = search(scene, plan.rung, target, control);
+  const double search_seconds = watch.seconds();
   const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
   const Profile best = family.at(outcome.best).value_or(start);
   control.tell({"verify", 1.0, outcome.value, outcome.evaluations});
-  Judgement start_judgement = judge(scene, target, start, verdict_stream);
-  Judgement best_judgement = judge(scene, target, best, verdict_stream);
-  const auto by_photons =
-      plan.rung == sim::Rung::photons ? static_cast<std::uint64_t>(outcome.evaluations) : std::uint64_t{0};
-  const std::uint64_t photons = scene.model.photons.photons * (by_photons + 2 * scene.model.replicates);
+  Judgement start_judgement = judge(scene, target, start, sim::Rung::photons, verdict_stream);
+  Judgement best_judgement = scene.accuracy_rel
+                                 ? judge_to_accuracy(scene, make_sharp_target(scene), best, verdict_stream,
+                                                     true, watch_accuracy(scene, control, "verify"))
+                                 : judge(scene, target, best, sim::Rung::photons, verdict_stream);
+  std::uint64_t photons = emitted(start_judgement) + emitted(best_judgement);
+  if (plan.rung != sim::Rung::tubes)
+    photons += scene.model.photons.photons * static_cast<std::uint64_t>(outcome.evaluations);
   return {std::move(target),
           std::move(plan),
           outcome,
           {start, starts(scene.variables), std::move(start_judgement)},
           {best, outcome.best, std::move(best_judgement)},
           photons,
+          search_seconds,
           watch.seconds()};
+}
+
+sim::Plan simulation_plan(const Scene& scene, const Profile& profile) {
+  if (!scene.accuracy_rel) return make_plan(scene, profile);
+  const Stage stage(scene, profile);
+  sim::ModelRequest request = model_request(scene);
+  request.estimate = {};
+  return sim::make_plan(stage.scene, request);
 }
 
 SimulationResult run_simulation(const Scene& scene, const RunControl& control) {
   const Stopwatch watch;
   const Profile profile = start_profile(scene);
-  Target target = make_target(scene);
+  sim::Plan plan = simulation_plan(scene, profile);
+  Target target = scene.accuracy_rel ? make_sharp_target(scene) : make_target(scene);
   if (!target.irradiance_w_per_mm2.empty()) need_light(scene, target);
   control.tell({"simulate", 0.0, std::numeric_limits<double>::quiet_NaN(), 0});
-  Judgement judgement = judge(scene, target, profile, verdict_stream);
+  Judgement judgement = scene.accuracy_rel ? judge_to_accuracy(scene, target, profile, verdict_stream, false,
+                                                               watch_accuracy(scene, control, "simulate"))
+                                           : judge(scene, target, profile, plan.rung, verdict_stream);
+  const std::uint64_t photons = emitted(judgement);
   return {std::move(target),
+          std::move(plan),
           {profile, starts(scene.variables), std::move(judgement)},
-          scene.model.photons.photons * scene.model.replicates,
+          photons,
           watch.seconds()};
 }
 
@@ -163,7 +200,7 @@ Landscape run_landscape(const Scene& scene, const RunControl& control) {
   need_light(scene, target);
   // Everything that is not drawn stays at its start.
   const Profile start = start_profile(scene);
-  const sim::Rung rung = search_plan(scene, start).rung;
+  const sim::Rung rung = make_plan(scene, start).rung;
   const ProfileFamily family(start, spec.variables, scene.unit);
   const std::vector<double> once{0.0};
   const std::vector<double>& second = result.axes.size() > 1 ? result.axes[1] : once;

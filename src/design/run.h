@@ -19,6 +19,7 @@ struct Progress {
   double share = 0;   ///< done, in [0, 1]; an estimate in a search
   double best = 0;    ///< best objective so far; NaN when there is none
   long evaluations = 0;
+  std::string note = {};  ///< what else there is to tell
 };
 
 /// What a caller may do to a run: stop it, and watch it. Both may be left empty.
@@ -45,8 +46,13 @@ struct DesignResult {
   optim::Outcome search;
   Judged start, best;
   std::uint64_t photons = 0;  ///< emitted in all
-  double seconds = 0;
+  double search_seconds = 0;  ///< of the search alone
+  double seconds = 0;         ///< verdicts included, files not
 };
+
+/// What `simulate` will compute the light with: the scene's rung, or where an accuracy is asked for the
+/// cheapest that is valid with a bandwidth of the program's choice.
+sim::Plan simulation_plan(const Scene& scene, const Profile& profile);
 
 /// Searches the scene's variables and judges start and best on fresh streams.
 /// @fails InputError when there is nothing to search or to aim at
@@ -55,6 +61,7 @@ DesignResult run_design(const Scene& scene, const RunControl& control);
 /// What `simulate` found: the scene as it stands, its variables at their start.
 struct SimulationResult {
   Target target;
+  sim::Plan plan;
   Judged mirror;
   std::uint64_t photons = 0;
   double seconds = 0;

@@ -101,8 +101,9 @@ TargetSpec target(const Settings& settings, double unit_mm) {
 ModelSpec model(const Settings& settings, double unit_mm) {
   ModelSpec spec{};
   const std::string rung = *settings.text("model.rung");
-  if (rung != "auto") spec.rung = rung == "tubes" ? sim::Rung::tubes : sim::Rung::photons;
+  spec.rung = sim::parse_rung(rung);
   spec.engine = settings.text("model.engine") == "occt" ? Engine::occt : Engine::meridian;
+  spec.engine_asked_for = settings.text("model.engine") != "auto";
   spec.photons.photons = static_cast<std::uint64_t>(*settings.integer("model.photons"));
   spec.photons.sampler =
       settings.text("model.sampler") == "sobol" ? sim::Sampler::sobol : sim::Sampler::random;
@@ -113,6 +114,7 @@ ModelSpec model(const Settings& settings, double unit_mm) {
     spec.estimate.neighbours = static_cast<std::size_t>(*n);
   if (const auto r = settings.number("model.kernel_radius")) spec.estimate.kernel_radius_mm = *r * unit_mm;
   spec.replicates = static_cast<std::uint64_t>(*settings.integer("model.replicates"));
+  spec.most_photons = static_cast<std::uint64_t>(*settings.integer("model.most_photons"));
   return spec;
 }
 
@@ -254,6 +256,7 @@ Scene make_scene(Settings settings) {
               .unit = unit,
               .seed = static_cast<std::uint64_t>(*settings.integer("seed")),
               .threads = static_cast<int>(*settings.integer("threads")),
+              .accuracy_rel = settings.number("accuracy"),
               .source = source,
               .profile = std::move(base),
               .profile_notes = std::move(notes),

@@ -39,11 +39,13 @@ std::string_view name(Engine engine);
 
 /// How the light is computed.
 struct ModelSpec {
-  std::optional<sim::Rung> rung;  ///< of the search and landscapes; nothing: the planner's choice
+  std::optional<sim::Rung> rung;  ///< nothing: the planner's choice
   Engine engine;
+  bool engine_asked_for;  ///< by name, not left to the program
   sim::PhotonOptions photons;
   sim::EstimateOptions estimate;
   std::uint64_t replicates;
+  std::uint64_t most_photons;  ///< that proving an accuracy may spend
 };
 
 enum class Metric { rmse, relative_rmse };
@@ -70,6 +72,7 @@ struct Scene {
   LengthUnit unit;
   std::uint64_t seed;
   int threads;
+  std::optional<double> accuracy_rel;  ///< asked of every reported field; nothing: photons as the model says
   SourceSpec source;
   Profile profile;                         ///< as written, before the variables' start values
   std::vector<std::string> profile_notes;  ///< where an imported generatrix came from

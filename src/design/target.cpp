@@ -7,6 +7,8 @@
 #include "base/tolerance.h"
 #include "design/csv_table.h"
 #include "design/evaluator.h"
+#include "design/stage.h"
+#include "sim/accuracy.h"
 
 namespace catoptric::design {
 namespace {
@@ -29,15 +31,33 @@ Target from_paraboloid(const Scene& scene) {
 }
 
 Target from_reference(const Scene& scene) {
+  const Profile& reference = *scene.target.reference;
   Target target{scene.near_field.samples(scene.samples), {}};
-  target.irradiance_w_per_mm2.assign(target.samples.size(), 0.0);
-  for (std::uint64_t i = 0; i < reference_replicates; ++i) {
-    const sim::FieldEstimate field =
-        estimate_field(scene, *scene.target.reference, target.samples, first_reference_stream + i);
-    for (std::size_t j = 0; j < target.samples.size(); ++j)
-      target.irradiance_w_per_mm2[j] +=
-          (field.direct[j] + field.reflected[j]) / static_cast<double>(reference_replicates);
-  }
+  const Evaluation first = evaluate_by_rung(scene, make_plan(scene, reference).rung, reference,
+                                            target.samples, first_reference_stream);
+  target.irradiance_w_per_mm2 = sum(first.direct, first.reflected);
+  if (first.rung == sim::Rung::tubes) return target;
+  for (std::uint64_t i = 1; i < reference_replicates; ++i)
+    target.irradiance_w_per_mm2 =
+        sum(target.irradiance_w_per_mm2,
+            total_by_rung(scene, first.rung, reference, target.samples, first_reference_stream + i));
+  for (double& value : target.irradiance_w_per_mm2) value /= static_cast<double>(reference_replicates);
+  return target;
+}
+
+Target sharp_from_reference(const Scene& scene) {
+  constexpr double share = 0.25;  // of the error allowed, so that the reference's own hardly counts
+  const Stage stage(scene, *scene.target.reference);
+  Target target{scene.near_field.samples(scene.samples), {}};
+  sim::AccuracyRequest request;
+  request.relative = share * *scene.accuracy_rel;
+  request.model = model_request(scene);
+  request.model.estimate = {};
+  request.photons = scene.model.photons;
+  request.photons.stream = first_reference_stream;
+  request.most_photons = scene.model.most_photons;
+  const sim::AccurateField field = sim::reach_accuracy(stage.scene, target.samples, request);
+  target.irradiance_w_per_mm2 = sum(field.direct, field.reflected);
   return target;
 }
 
@@ -97,6 +117,10 @@ Target make_target(const Scene& scene) {
       break;
   }
   return {scene.near_field.samples(scene.samples), {}};
+}
+
+Target make_sharp_target(const Scene& scene) {
+  return scene.target.kind == TargetKind::reflector ? sharp_from_reference(scene) : make_target(scene);
 }
 
 }  // namespace catoptric::design

@@ -1,5 +1,6 @@
 #include "report/result_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -23,6 +24,10 @@ Json objective_json(const design::Scene& scene, const design::Judgement& judgeme
                {"unit", scene.search.metric == design::Metric::rmse ? "W/m^2" : "1"},
                {"noise", judgement.objective.noise},
                {"bias", judgement.objective.bias},
+               {"interval95",
+                {std::max(0.0, judgement.objective.value - judgement.objective.bias -
+                                   judgement.objective.half_interval),
+                 judgement.objective.value - judgement.objective.bias + judgement.objective.half_interval}},
                {"kernel_radius", scene.to_scene_unit(judgement.kernel_radius_mm)},
                {"kernel_radius_unit", std::string(symbol(scene.unit))}};
   if (scene.model.estimate.neighbours) json["neighbours"] = *scene.model.estimate.neighbours;
@@ -32,6 +37,7 @@ Json objective_json(const design::Scene& scene, const design::Judgement& judgeme
   json["samples"] = judgement.reflected.size();
   json["field_noise"] = to_w_per_m2(judgement.field_noise_w_per_mm2);
   json["field_bias"] = to_w_per_m2(judgement.field_bias_w_per_mm2);
+  json["model"] = std::string(name(judgement.rung));
   return json;
 }
 
@@ -65,6 +71,22 @@ Json reflector_json(const design::Scene& scene, const Profile& profile) {
           {"rim_radius", scene.to_scene_unit(profile.at(profile.last_parameter()).r_mm)},
           {"depth", scene.to_scene_unit(profile.z_max_mm() - profile.z_min_mm())},
           {"area_mm2", profile.area_mm2()}};
+}
+
+/// How an accuracy was reached; null where none was asked for. Errors are relative to the field's root mean
+/// square.
+Json accuracy_json(const design::Judgement& judgement) {
+  if (!judgement.accuracy) return nullptr;
+  const design::AccuracyReport& report = *judgement.accuracy;
+  Json stages = Json::array();
+  for (const sim::AccuracyStage& stage : report.stages)
+    stages.push_back({{"photons", stage.photons}, {"error95", stage.error95_rel}});
+  return {{"asked", report.asked_rel},     {"proven", report.proven},
+          {"error95", report.error95_rel}, {"noise", report.noise_rel},
+          {"bias", report.bias_rel},       {"model", std::string(name(judgement.rung))},
+          {"order", report.order},         {"photons_spent", report.spent_photons},
+          {"rays", report.rays},           {"stages", stages},
+          {"sentence", report.sentence}};
 }
 
 Json run_json(const design::Scene& scene, sim::Rung rung) {
@@ -107,7 +129,9 @@ Json result_json(const design::Scene& scene, const design::DesignResult& result)
                     {"photons", result.photons}};
   json["seconds"] = result.seconds;
   json.update(run_json(scene, result.plan.rung));
-  json["verdict_model"] = "photons";
+  json["seconds_search"] = result.search_seconds;
+  json["verdict_model"] = std::string(name(judgement.rung));
+  json["accuracy"] = accuracy_json(judgement);
   json["energy"] = energy_json(scene, judgement.energy);
   json["reflector"] = reflector_json(scene, result.best.profile);
   json["profile_notes"] = scene.profile_notes;
@@ -122,7 +146,8 @@ Json result_json(const design::Scene& scene, const design::SimulationResult& res
   json.update(judged_json(scene, result.mirror));
   json["counts"] = {{"photons", result.photons}};
   json["seconds"] = result.seconds;
-  json.update(run_json(scene, sim::Rung::photons));
+  json.update(run_json(scene, result.mirror.judgement.rung));
+  json["accuracy"] = accuracy_json(result.mirror.judgement);
   json["energy"] = energy_json(scene, result.mirror.judgement.energy);
   json["reflector"] = reflector_json(scene, result.mirror.profile);
   json["profile_notes"] = scene.profile_notes;

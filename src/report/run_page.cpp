@@ -19,19 +19,36 @@ std::string objective_text(const design::Scene& scene, const design::Judgement& 
                      figure.bias, unit);
 }
 
+std::string kernel_text(const design::Scene& scene, const design::Judgement& judgement) {
+  if (judgement.kernel_radius_mm == 0) return "none: the irradiance itself";
+  const std::string radius =
+      fmt::format("radius {:.4g} {}", scene.to_scene_unit(judgement.kernel_radius_mm), unit_of(scene));
+  if (judgement.accuracy)
+    return fmt::format("{}, bias of order {}; what it blurs is within the error stated", radius,
+                       judgement.accuracy->order);
+  return fmt::format("{}, {}", sim::name(scene.model.estimate.kernel), radius);
+}
+
 /// How every figure on the page was judged.
 std::vector<Fact> measure_facts(const design::Scene& scene, const design::Judgement& judgement) {
-  return {
-      {"Photons",
-       fmt::format("{} replicates of {} ({})", judgement.replicates, judgement.photons,
-                   scene.model.photons.sampler == sim::Sampler::sobol ? "Sobol, scrambled" : "random")},
-      {"Kernel", fmt::format("{}, mean radius {:.4g} {}", sim::name(scene.model.estimate.kernel),
-                             scene.to_scene_unit(judgement.kernel_radius_mm), unit_of(scene))},
-      {"Samples", fmt::format("{} over {:.4g} mm²", judgement.reflected.size(), scene.near_field.area_mm2())},
-      {"Noise of one evaluation, rms",
-       fmt::format("{:.3g} W/m²", to_w_per_m2(judgement.field_noise_w_per_mm2))},
-      {"Kernel bias of the field, rms",
-       fmt::format("{:.3g} W/m²", to_w_per_m2(judgement.field_bias_w_per_mm2))}};
+  std::vector<Fact> facts;
+  if (judgement.accuracy) facts.emplace_back("Accuracy", judgement.accuracy->sentence);
+  if (judgement.rung == sim::Rung::tubes)
+    facts.emplace_back("Light", "ray tubes, no random numbers");
+  else
+    facts.emplace_back(
+        "Photons",
+        fmt::format("{} replicates of {} ({}), rung {}", judgement.replicates, judgement.photons,
+                    scene.model.photons.sampler == sim::Sampler::sobol ? "Sobol, scrambled" : "random",
+                    name(judgement.rung)));
+  facts.emplace_back("Kernel", kernel_text(scene, judgement));
+  facts.emplace_back(
+      "Samples", fmt::format("{} over {:.4g} mm²", judgement.reflected.size(), scene.near_field.area_mm2()));
+  facts.emplace_back("Noise of one evaluation, rms",
+                     fmt::format("{:.3g} W/m²", to_w_per_m2(judgement.field_noise_w_per_mm2)));
+  facts.emplace_back("Kernel bias of the field, rms",
+                     fmt::format("{:.3g} W/m²", to_w_per_m2(judgement.field_bias_w_per_mm2)));
+  return facts;
 }
 
 PageSection figure_section(const std::string& heading, const std::vector<DrawnFigure>& figures) {
@@ -72,17 +89,16 @@ PageSection model_section(const design::Scene& scene, const sim::Plan& plan) {
   for (const sim::Finding& finding : plan.findings)
     section.facts.emplace_back(finding.feature, finding.found + ": " + finding.consequence);
   section.paragraphs = {
-      fmt::format("Photons from a point source meet the true surface of revolution (engine {}), are "
-                  "reflected specularly with "
-                  "probability {:.4g}, pass with {:.4g} or are absorbed, as often as they meet it. Direct "
-                  "light is computed, "
-                  "with the mirror's shadow.",
-                  name(scene.model.engine), scene.mirror.reflectance, scene.mirror.transmittance),
+      fmt::format(
+          "Light from a point source meets the true surface of revolution (engine {}); of it {:.4g} is "
+          "reflected specularly, {:.4g} passes and the rest is absorbed, as often as it meets it. Direct "
+          "light is computed, with the mirror's shadow.",
+          name(scene.model.engine), scene.mirror.reflectance, scene.mirror.transmittance),
       "Left out: the size of the source, scattering and the mirror's figure error, colour, polarisation, and "
       "all "
-      "surroundings but the near field. The kernel's bias is extrapolated from two kernel areas; at jumps of "
-      "the field (the "
-      "rim of a beam, a fold) it is underestimated."};
+      "surroundings but the near field. The kernel's bias is extrapolated from two bandwidths; at jumps of "
+      "the "
+      "field (the rim of a beam, a fold) it is underestimated."};
   return section;
 }
 
@@ -135,7 +151,7 @@ std::string simulation_page(const design::Scene& scene, const design::Simulation
                     {}},
                    figure_section("Pictures", figures),
                    mirror_section(scene, result.mirror.profile),
-                   model_section(scene, {})};
+                   model_section(scene, result.plan)};
   return html_page(page);
 }
 

@@ -166,7 +166,13 @@ Table simulation_table(const design::Scene& scene, const design::SimulationResul
       {"noise of one evaluation, rms", "W/m^2", to_w_per_m2(judgement.field_noise_w_per_mm2)});
   table.rows.push_back(
       {"kernel bias of the field, rms", "W/m^2", to_w_per_m2(judgement.field_bias_w_per_mm2)});
+  if (judgement.accuracy) {
+    table.rows.push_back({"accuracy asked for, relative", "", judgement.accuracy->asked_rel});
+    table.rows.push_back({"relative error, at most (95 %)", "", judgement.accuracy->error95_rel});
+  }
+  table.rows.push_back({"model", "", std::string(name(judgement.rung))});
   table.rows.push_back({"source", "W", scene.source.power_w});
+  if (judgement.rung == sim::Rung::tubes) return table;  // tubes keep no ledger
   table.rows.push_back({"emitted towards the mirror", "W", judgement.energy.emitted_w});
   table.rows.push_back({"  missed it", "W", judgement.energy.missed_w});
   table.rows.push_back({"  absorbed by it", "W", judgement.energy.absorbed_w});

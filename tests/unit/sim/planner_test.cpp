@@ -14,10 +14,11 @@ const test::QuadricReflector mirror = test::paraboloid();
 const EstimateOptions fixed{Kernel::silverman, {}, 5.0};
 
 Plan plan_of(const Vector3& source_mm, const Vector3& normal, const EstimateOptions& estimate,
-             std::optional<Rung> wanted, std::optional<Material> surface = {}) {
+             std::optional<Rung> wanted, std::optional<Material> surface = {},
+             std::optional<std::string> engine = {}) {
   const PointSource source(source_mm, 1);
   const NearField field = NearField::disc({0, 0, 0}, normal, 50, surface);
-  return make_plan({source, mirror, {}, field}, estimate, wanted);
+  return make_plan({source, mirror, {}, field}, {estimate, wanted, std::move(engine)});
 }
 
 }  // namespace
@@ -31,16 +32,31 @@ TEST_CASE("the planner takes tubes where they are valid and says why") {
   CHECK(plan_of({0, 0, 50}, {0, 0, 1}, fixed, Rung::photons).rung == Rung::photons);
 }
 
-TEST_CASE("what tubes cannot do goes to photons, and forcing tubes there is an error with the reason") {
+TEST_CASE("what tubes cannot do goes to the next rung, and forcing tubes there is an error with the reason") {
   const auto refused = [](const Vector3& source_mm, const Vector3& normal, const EstimateOptions& estimate,
-                          std::optional<Material> surface, const char* reason) {
+                          std::optional<Material> surface, Rung instead, const char* reason) {
     INFO(reason);
-    CHECK(plan_of(source_mm, normal, estimate, {}, surface).rung == Rung::photons);
+    CHECK(plan_of(source_mm, normal, estimate, {}, surface).rung == instead);
     CHECK_THROWS_WITH(plan_of(source_mm, normal, estimate, Rung::tubes, surface), Catch::Contains(reason));
+    if (instead == Rung::photons)
+      CHECK_THROWS_WITH(plan_of(source_mm, normal, estimate, Rung::rings, surface),
+                        Catch::Contains("rung rings cannot"));
   };
-  refused({1, 0, 50}, {0, 0, 1}, fixed, {}, "axis");
-  refused({0, 0, 50}, {0, 1, 1}, fixed, {}, "tilted");
-  refused({0, 0, 50}, {0, 0, 1}, {Kernel::silverman, 100, {}}, {}, "number of photons");
-  refused({0, 0, 50}, {0, 0, 1}, {Kernel::cone, {}, 5.0}, {}, "cone");
-  refused({0, 0, 50}, {0, 0, 1}, fixed, Material{0.5, 0}, "near field");
+  refused({1, 0, 50}, {0, 0, 1}, fixed, {}, Rung::photons, "axis");
+  refused({0, 0, 50}, {0, 1, 1}, fixed, {}, Rung::photons, "tilted");
+  refused({0, 0, 50}, {0, 0, 1}, {Kernel::silverman, 100, {}}, {}, Rung::photons, "number of photons");
+  refused({0, 0, 50}, {0, 0, 1}, {Kernel::cone, {}, 5.0}, {}, Rung::photons, "cone");
+  refused({0, 0, 50}, {0, 0, 1}, {Kernel::epanechnikov, {}, 5.0}, {}, Rung::rings, "epanechnikov");
+  refused({0, 0, 50}, {0, 0, 1}, fixed, Material{0.5, 0}, Rung::rings, "near field");
+}
+
+TEST_CASE("an engine that was asked for is used: tubes, which have their own, are not") {
+  CHECK(plan_of({0, 0, 50}, {0, 0, 1}, fixed, {}, {}, "occt").rung == Rung::rings);
+  CHECK_THROWS_WITH(plan_of({0, 0, 50}, {0, 0, 1}, fixed, Rung::tubes, {}, "occt"), Catch::Contains("occt"));
+  CHECK(plan_of({0, 0, 50}, {0, 0, 1}, fixed, Rung::tubes, {}, "meridian").rung == Rung::tubes);
+}
+
+TEST_CASE("every rung has a name that reads back") {
+  for (const Rung rung : all_rungs) CHECK(parse_rung(name(rung)) == rung);
+  CHECK_FALSE(parse_rung("tube"));
 }

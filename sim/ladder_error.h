@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim/bandwidth_ladder.h"
+
+namespace catoptric::sim {
+
+/// One way to read a ladder: a level, and which of its two estimates.
+struct LadderChoice {
+  std::size_t level = 0;
+  int order = 2;       ///< of the bias: 2 or 4
+  double noise = 0;    ///< standard deviation of the sets' mean, root mean square over the samples, W/mm^2
+  double bias = 0;     ///< upper estimate of what the kernel adds, root mean square over the samples
+  double error95 = 0;  ///< root mean square error that is not exceeded with a probability of 95 %
+};
+
+/// The sets' mean at the samples.
+std::vector<double> mean_of(const SetFields& sets);
+/// Standard deviation of that mean at each sample, by the sets' spread.
+std::vector<double> deviation_of_mean(const SetFields& sets);
+const SetFields& fields_of(const LadderLevel& level, int order);
+
+/// The reading of a ladder with the least error.
+///
+/// Noise comes from the spread of the sets. Its mean square over the samples is known as well as the number
+/// of independent kernels allows, so the 95 % bound is that of an F distribution. Bias is the sum of what
+/// each further narrowing changes, as far as the changes stand out of their own noise; from there on it is
+/// continued as the geometric series that the last changes make (a quarter or half a step for smooth fields,
+/// more at jumps). Where no change stands out, the change that noise could hide is taken.
+/// @in    two levels and two sets at least
+/// @from  Lepski 1991 for the comparison of bandwidths
+LadderChoice best_choice(const BandwidthLadder& ladder);
+
+}  // namespace catoptric::sim

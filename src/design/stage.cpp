@@ -1,0 +1,26 @@
+#include "design/stage.h"
+
+#include "cad/engines.h"
+
+namespace catoptric::design {
+namespace {
+
+std::unique_ptr<Reflector> make_reflector(Engine engine, const Profile& profile) {
+  if (engine == Engine::occt) return cad::make_occt_reflector(profile);
+  return cad::make_meridian_reflector(profile);
+}
+
+}  // namespace
+
+Stage::Stage(const Scene& spec, const Profile& profile)
+    : source(spec.source.position_mm, spec.source.power_w),
+      mirror(make_reflector(spec.model.engine, profile)),
+      scene{source, *mirror, spec.mirror, spec.near_field} {}
+
+sim::ModelRequest model_request(const Scene& scene) {
+  sim::ModelRequest request{scene.model.estimate, scene.model.rung, {}};
+  if (scene.model.engine_asked_for) request.engine = std::string(name(scene.model.engine));
+  return request;
+}
+
+}  // namespace catoptric::design
