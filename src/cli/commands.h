@@ -44,6 +44,7 @@ ExitCode design_command(const CommonOptions& options);
 ExitCode simulate_command(const CommonOptions& options);
 ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions& more);
 ExitCode explain_command(const CommonOptions& options);
+ExitCode tradeoff_command(const CommonOptions& options);
 ExitCode study_command(const CommonOptions& options);
 ExitCode profile_command(const CommonOptions& options, const ProfileOptions& more);
 ExitCode export_command(const CommonOptions& options, const ExportCommandOptions& more);

@@ -6,7 +6,7 @@
 #include "cli/commands.h"
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
-#include "cli/thread_limit.h"
+#include "design/thread_limit.h"
 #include "report/run_files.h"
 #include "report/run_tables.h"
 
@@ -40,7 +40,7 @@ ExitCode design_command(const CommonOptions& options) {
   const design::Scene scene = design::read_scene(options.input, options.overrides());
   const std::filesystem::path out = options.out_folder();
   prepare_output_folder(out);
-  const ThreadLimit limit(scene.threads);
+  const design::ThreadLimit limit(scene.threads);
   ProgressLine line(options.quiet, scene.search.metric == design::Metric::rmse ? "W/m^2" : "");
   const design::RunControl control{&stop_on_signal(), [&](const design::Progress& p) { line.show(p); }};
   const design::DesignResult result = design::run_design(scene, control);
@@ -62,7 +62,7 @@ ExitCode simulate_command(const CommonOptions& options) {
   const design::Scene scene = design::read_scene(options.input, options.overrides());
   const std::filesystem::path out = options.out_folder();
   prepare_output_folder(out);
-  const ThreadLimit limit(scene.threads);
+  const design::ThreadLimit limit(scene.threads);
   ProgressLine line(options.quiet, "");
   const design::RunControl control{&stop_on_signal(), [&](const design::Progress& p) { line.show(p); }};
   const design::SimulationResult result = design::run_simulation(scene, control);

@@ -8,8 +8,8 @@
 #include "cli/commands.h"
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
-#include "cli/thread_limit.h"
 #include "design/csv_table.h"
+#include "design/thread_limit.h"
 #include "report/run_files.h"
 
 namespace catoptric::cli {
@@ -36,7 +36,7 @@ ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions&
     for (const auto& file : more.paths) paths.push_back(read_path(file, scene.landscape->variables));
   const std::filesystem::path out = options.out_folder();
   prepare_output_folder(out);
-  const ThreadLimit limit(scene.threads);
+  const design::ThreadLimit limit(scene.threads);
   ProgressLine line(options.quiet, scene.search.metric == design::Metric::rmse ? "W/m^2" : "");
   const design::RunControl control{&stop_on_signal(), [&](const design::Progress& p) { line.show(p); }};
   const design::Landscape result = design::run_landscape(scene, control);

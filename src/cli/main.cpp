@@ -94,6 +94,10 @@ struct Parser {
         ->type_name("FORMAT");
     written->footer(
         "Example: catoptric export data/paper/paraboloid.toml --format step --set reflector.wall=0.2");
+    add_common(
+        *app.add_subcommand("tradeoff", "Measures what accuracy costs on this scene: time against error")
+             ->footer("Example: catoptric tradeoff data/paper/paraboloid.toml --out out/trade"),
+        common, "SCENE.toml");
     add_common(*app.add_subcommand("study", "Runs a list of variations of a scene and prints one table")
                     ->footer("Example: catoptric study data/paper/table2.toml --out out/table2"),
                common, "STUDY.toml");
@@ -104,6 +108,7 @@ struct Parser {
     if (app.got_subcommand("simulate")) return simulate_command(common);
     if (app.got_subcommand("explain")) return explain_command(common);
     if (app.got_subcommand("landscape")) return landscape_command(common, landscape);
+    if (app.got_subcommand("tradeoff")) return tradeoff_command(common);
     if (app.got_subcommand("profile")) return profile_command(common, profile);
     if (app.got_subcommand("export")) return export_command(common, shape);
     return study_command(common);

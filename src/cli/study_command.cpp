@@ -7,7 +7,7 @@
 #include "cli/commands.h"
 #include "cli/progress_line.h"
 #include "cli/stop_signal.h"
-#include "cli/thread_limit.h"
+#include "design/thread_limit.h"
 #include "report/run_files.h"
 
 namespace catoptric::cli {
@@ -17,7 +17,7 @@ namespace {
 report::StudyRow run_one(const design::Study& study, const design::StudyRun& run, design::Scene scene,
                          const std::filesystem::path& folder, const design::RunControl& control) {
   report::StudyRow row{run, std::move(scene), {}, {}, ""};
-  const ThreadLimit limit(row.scene->threads);
+  const design::ThreadLimit limit(row.scene->threads);
   try {
     prepare_output_folder(folder);
     if (study.designs) {

@@ -65,9 +65,10 @@ Figure judge_objective(const Scene& scene, const Target& target, const Rows& ref
   for (const auto& field : reflected)
     values.push_back({objective(scene, sum(direct, field), target.irradiance_w_per_mm2)});
   const Spread value = spread(values);
-  Figure figure{value.mean[0], std::sqrt(value.variance_of_mean[0]), 0, 0};
+  Figure figure{value.mean[0], std::sqrt(value.variance_of_mean[0]), 0, {}};
   figure.bias = figure.value - debiased_objective(scene, target, spread(sharp), direct);
-  if (sharp.size() < 3) return figure;  // without one of two there is no spread left
+  if (sharp.size() == 1) figure.half_interval = 0;  // tubes: nothing is random
+  if (sharp.size() < 3) return figure;              // without one of two there is no noise left to take off
   Rows without;
   for (std::size_t i = 0; i < sharp.size(); ++i)
     without.push_back({debiased_objective(scene, target, spread(sharp, i), direct)});

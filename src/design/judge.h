@@ -16,7 +16,8 @@ struct Figure {
   double noise = 0;  ///< standard error of `value`, from the replicates' spread
   double bias = 0;   ///< estimated systematic part of `value`: photon noise that eq. 7 counts as error, and
                      ///< the kernel's blur
-  double half_interval = 0;  ///< value - bias give or take this holds the truth with a probability of 95 %
+  std::optional<double> half_interval;  ///< value - bias give or take this holds the truth with a probability
+                                        ///< of 95 %; nothing where too few replicates show a spread
 };
 
 /// How an accuracy that the scene asked for was reached.

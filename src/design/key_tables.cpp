@@ -91,6 +91,11 @@ const std::vector<Key>& scene_table() {
       {.path = "landscape.steps", .type = numbers, .least = 2, .greatest = 10000, .meaning = "how many values of each"},
       {.path = "landscape.greatest", .type = number, .least = 0, .least_excluded = true, .meaning = "objective above which the drawn surface is cut off; the table keeps all"},
 
+      {.path = "tradeoff.seconds", .type = number, .least = 0, .greatest = 1e6, .least_excluded = true, .standard = "1.0", .meaning = "settings whose evaluation takes longer are left out, s"},
+      {.path = "tradeoff.seeds", .type = integer, .least = 1, .greatest = 1000, .standard = "3", .meaning = "independent repetitions of every setting that uses random numbers"},
+      {.path = "tradeoff.most_photons", .type = integer, .least = 1000, .greatest = 1e9, .standard = "1000000", .meaning = "photons of the dearest settings; a reference by photons may take 50 times as many"},
+      {.path = "tradeoff.reference_accuracy", .type = number, .least = 0, .greatest = 1, .least_excluded = true, .standard = "0.0002", .meaning = "relative error aimed at in a reference without closed form"},
+
       {.path = "export.unit", .type = choice, .choices = {"mm", "cm", "m", "in"}, .standard = "\"mm\"", .meaning = "unit of length inside exchange files"},
       {.path = "export.step_schema", .type = choice, .choices = {"ap203", "ap214", "ap242"}, .standard = "\"ap214\"", .meaning = "STEP application protocol"},
       {.path = "export.iges_mode", .type = choice, .choices = {"faces", "brep"}, .standard = "\"faces\"", .meaning = "IGES entities: trimmed surfaces (144) or boundary representation (186)"},

@@ -211,6 +211,12 @@ std::optional<LandscapeSpec> landscape(const Settings& settings, const Profile& 
   return spec;
 }
 
+TradeoffSpec tradeoff(const Settings& settings) {
+  return {*settings.number("tradeoff.seconds"), static_cast<int>(*settings.integer("tradeoff.seeds")),
+          static_cast<std::uint64_t>(*settings.integer("tradeoff.most_photons")),
+          *settings.number("tradeoff.reference_accuracy")};
+}
+
 cad::ExportOptions export_options(const Settings& settings, double unit_mm) {
   cad::ExportOptions options;
   options.unit = *parse_length_unit(*settings.text("export.unit"));
@@ -268,6 +274,7 @@ Scene make_scene(Settings settings) {
               .search = search(settings),
               .variables = std::move(decision),
               .landscape = std::move(drawn),
+              .tradeoff = tradeoff(settings),
               .export_options = export_options(settings, unit_mm)};
   scene.settings = std::move(settings);
   return scene;

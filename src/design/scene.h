@@ -65,6 +65,14 @@ struct LandscapeSpec {
   std::optional<double> greatest;  ///< drawn surfaces are cut off there
 };
 
+/// How far `tradeoff` goes.
+struct TradeoffSpec {
+  double seconds;              ///< longest evaluation tried
+  int seeds;                   ///< independent repetitions with random numbers
+  std::uint64_t most_photons;  ///< of one evaluation
+  double reference_accuracy_rel;
+};
+
 /// A scene, checked, in mm, W and rad; variables keep the scene's unit, which is what people read and write.
 struct Scene {
   Settings settings;  ///< every key with its value, defaults included: what scene.toml holds
@@ -84,6 +92,7 @@ struct Scene {
   SearchSpec search;
   std::vector<optim::Variable> variables;  ///< lengths in the scene's unit
   std::optional<LandscapeSpec> landscape;
+  TradeoffSpec tradeoff;
   cad::ExportOptions export_options;
 
   double to_scene_unit(double mm) const { return mm / millimetres_per(unit); }

@@ -110,6 +110,16 @@ struct LineFigure {
 };
 std::string line_script(const LineFigure& figure);
 
+/// What settings cost and how near the truth they come, on logarithmic axes.
+struct TradeFigure {
+  std::string title;
+  std::string x_label, y_label;
+  std::vector<Curve> groups;   ///< settings as points, alike ones under one label
+  Curve front;                 ///< those that no other beats, by rising cost
+  std::vector<double> levels;  ///< accuracies marked by a line
+};
+std::string trade_script(const TradeFigure& figure);
+
 /// The objective over two variables, with the paths searches took (paper figures 3 and 4).
 struct LandscapeFigure {
   std::string title;

@@ -17,6 +17,13 @@ Json variables_json(const design::Scene& scene, const std::vector<double>& value
   return json;
 }
 
+/// Where the truth lies with a probability of 95 %; null where that is not known.
+Json interval_json(const design::Figure& figure) {
+  if (!figure.half_interval) return nullptr;
+  const double middle = figure.value - figure.bias;
+  return {std::max(0.0, middle - *figure.half_interval), middle + *figure.half_interval};
+}
+
 Json objective_json(const design::Scene& scene, const design::Judgement& judgement) {
   if (!judgement.has_objective) return nullptr;
   Json json = {{"metric", std::string(name(scene.search.metric))},
@@ -24,10 +31,7 @@ Json objective_json(const design::Scene& scene, const design::Judgement& judgeme
                {"unit", scene.search.metric == design::Metric::rmse ? "W/m^2" : "1"},
                {"noise", judgement.objective.noise},
                {"bias", judgement.objective.bias},
-               {"interval95",
-                {std::max(0.0, judgement.objective.value - judgement.objective.bias -
-                                   judgement.objective.half_interval),
-                 judgement.objective.value - judgement.objective.bias + judgement.objective.half_interval}},
+               {"interval95", interval_json(judgement.objective)},
                {"kernel_radius", scene.to_scene_unit(judgement.kernel_radius_mm)},
                {"kernel_radius_unit", std::string(symbol(scene.unit))}};
   if (scene.model.estimate.neighbours) json["neighbours"] = *scene.model.estimate.neighbours;

@@ -1,63 +1,16 @@
 #include "report/run_files.h"
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
-#include "base/atomic_file.h"
-#include "cad/export.h"
-#include "report/csv.h"
-#include "report/gnuplot.h"
 #include "report/result_json.h"
 #include "report/run_figures.h"
+#include "report/run_folder.h"
 #include "report/run_page.h"
 
 namespace catoptric::report {
-namespace {
-
-/// Writes one run's folder and remembers what it wrote.
-class Folder {
- public:
-  explicit Folder(std::filesystem::path path) : path_(std::move(path)) {}
-
-  void text(const std::string& name, const std::string& content) {
-    write_file_whole(path_ / name, content);
-    written_.names.push_back(name);
-  }
-  void table(const std::string& name, const Table& content) {
-    write_csv(path_ / name, content, UnitsInHeader::no);
-    written_.names.push_back(name);
-  }
-  void exchange(const std::string& name, const Profile& profile, const cad::ExportOptions& options) {
-    cad::export_reflector(profile, path_ / name, options);
-    written_.names.push_back(name);
-  }
-  /// Draws into the subfolder `figures`; a figure that cannot be drawn is a note.
-  std::vector<DrawnFigure> draw_all(const std::vector<NamedFigure>& figures) {
-    const std::filesystem::path folder = path_ / "figures";
-    prepare_output_folder(folder);
-    std::vector<DrawnFigure> drawn;
-    for (const NamedFigure& figure : figures) {
-      Drawing drawing = draw(figure.script, folder, figure.name);
-      if (!drawing.drawn() && (written_.notes.empty() || written_.notes.back() != drawing.sentence))
-        written_.notes.push_back(drawing.sentence);
-      drawn.push_back({figure.name, figure.caption, std::move(drawing.svg_text)});
-    }
-    written_.names.push_back(fmt::format("figures/ ({} plots)", drawn.size()));
-    return drawn;
-  }
-  WrittenFiles take() { return std::move(written_); }
-
- private:
-  std::filesystem::path path_;
-  WrittenFiles written_;
-};
-
-}  // namespace
-
 WrittenFiles write_design(const design::Scene& scene, const design::DesignResult& result,
                           const std::filesystem::path& path) {
-  Folder folder(path);
+  RunFolder folder(path);
   folder.text("scene.toml", design::scene_text(scene));
   folder.text("result.json", json_text(result_json(scene, result)));
   folder.table("irradiance.csv", irradiance_table(scene, result.target, result.best.judgement));
@@ -73,7 +26,7 @@ WrittenFiles write_design(const design::Scene& scene, const design::DesignResult
 
 WrittenFiles write_simulation(const design::Scene& scene, const design::SimulationResult& result,
                               const std::filesystem::path& path) {
-  Folder folder(path);
+  RunFolder folder(path);
   folder.text("scene.toml", design::scene_text(scene));
   folder.text("result.json", json_text(result_json(scene, result)));
   folder.table("irradiance.csv", irradiance_table(scene, result.target, result.mirror.judgement));
@@ -85,7 +38,7 @@ WrittenFiles write_simulation(const design::Scene& scene, const design::Simulati
 
 WrittenFiles write_landscape(const design::Scene& scene, const design::Landscape& landscape,
                              const std::vector<SearchPath>& paths, const std::filesystem::path& path) {
-  Folder folder(path);
+  RunFolder folder(path);
   folder.table("landscape.csv", landscape_table(scene, landscape));
   folder.draw_all(landscape_figures(scene, landscape, paths));
   return folder.take();
@@ -93,7 +46,7 @@ WrittenFiles write_landscape(const design::Scene& scene, const design::Landscape
 
 WrittenFiles write_study(const design::Study& study, const std::vector<StudyRow>& rows, double seconds,
                          const std::filesystem::path& path) {
-  Folder folder(path);
+  RunFolder folder(path);
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const StudyRow& row : rows) {
     nlohmann::ordered_json entry = {{"name", row.run.name}};

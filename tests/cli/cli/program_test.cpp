@@ -1,5 +1,8 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -26,6 +29,7 @@ json parsed(const std::filesystem::path& file) { return json::parse(read_whole(f
 json repeatable(const std::filesystem::path& file) {
   json value = parsed(file);
   value.erase("seconds");
+  value.erase("seconds_search");
   return value;
 }
 
@@ -37,7 +41,8 @@ TEST_CASE("help and version are no errors, and every command shows an example") 
   const Ended keys = program_run("--keys");
   CHECK(keys.code == 0);
   CHECK_THAT(keys.output, Contains("model.photons\n") && Contains("100000 when left out"));
-  for (const char* command : {"design", "simulate", "explain", "landscape", "profile", "export", "study"}) {
+  for (const char* command :
+       {"design", "simulate", "explain", "landscape", "profile", "export", "tradeoff", "study"}) {
     const Ended help = program_run(std::string(command) + " --help");
     INFO(help.output);
     CHECK(help.code == 0);
@@ -242,4 +247,93 @@ TEST_CASE("a profile file that is none ends with 4") {
     INFO(ended.output);
     CHECK(ended.code == 4);
   }
+}
+
+TEST_CASE("simulate takes any rung that is valid, and all of them see the same light") {
+  const TemporaryFolder folder;
+  json results;
+  for (const char* rung : {"tubes", "rings", "photons"}) {
+    const Ended ended = program_run(
+        "simulate '" + paper + "start_a.toml' --quiet --set model.photons=20000 --set model.rung=" + rung +
+        " --out '" + (folder / rung).string() + "'");
+    INFO(ended.output);
+    REQUIRE(ended.code == 0);
+    results[rung] = parsed(folder / rung / "result.json");
+    CHECK(results[rung]["model"] == rung);
+  }
+  CHECK(results["tubes"]["objective"]["noise"] == 0.0);
+  CHECK(results["tubes"]["counts"]["photons"] == 0);
+  // Start A is 0.36 W/m^2 from its target; blur and noise of 160 000 photons are a hundredth of that.
+  const double exact = results["tubes"]["objective"]["value"];
+  CHECK(results["photons"]["objective"]["value"].get<double>() == Approx(exact).epsilon(0.03));
+}
+
+TEST_CASE("an accuracy is proven, or the program says how far it got and ends with 5") {
+  const TemporaryFolder folder;
+  const auto simulate = [&](const std::string& more) {
+    return program_run("simulate '" + paper + "paraboloid.toml' --out '" + (folder / "a").string() + "' " +
+                       more);
+  };
+  const auto error_to_target = [&] {
+    double square = 0, target_square = 0;
+    std::istringstream lines(read_whole(folder / "a" / "irradiance.csv"));
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+      std::vector<double> v;
+      std::istringstream cells(line);
+      for (std::string cell; std::getline(cells, cell, ',');) v.push_back(std::stod(cell));
+      square += (v[6] - v[3]) * (v[6] - v[3]);
+      target_square += v[3] * v[3];
+    }
+    return std::sqrt(square / target_square);
+  };
+  for (const char* rung : {"auto", "rings", "photons"}) {
+    INFO(rung);
+    const Ended ended = simulate(std::string("--set accuracy=0.003 --set model.rung=") + rung);
+    CHECK(ended.code == 0);
+    CHECK_THAT(ended.output, Contains("proven"));
+    const json result = parsed(folder / "a" / "result.json");
+    CHECK(result["accuracy"]["proven"] == true);
+    CHECK(result["accuracy"]["error95"].get<double>() <= 0.003);
+    CHECK(error_to_target() <= 0.003);
+  }
+  const Ended short_of_it =
+      simulate("--set accuracy=1e-7 --set model.rung=photons --set model.most_photons=20000");
+  CHECK(short_of_it.code == 5);
+  CHECK_THAT(short_of_it.output, Contains("not proven"));
+  CHECK(parsed(folder / "a" / "result.json")["accuracy"]["proven"] == false);
+  const Ended tilted = simulate(
+      "--set near_field.normal=[0,0.6,0.8] --set target.kind=none --set model.rung=tubes --set accuracy=0.1");
+  CHECK(tilted.code == 3);
+  CHECK_THAT(tilted.output, Contains("tilted"));
+}
+
+TEST_CASE("tradeoff measures, chooses and writes") {
+  const TemporaryFolder folder;
+  const Ended ended =
+      program_run("tradeoff '" + paper +
+                  "paraboloid.toml' --set tradeoff.most_photons=10000 --set tradeoff.seconds=0.2 --out '" +
+                  folder.path().string() + "'");
+  INFO(ended.output);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.output, Contains("Take for 10 %") && Contains("closed form"));
+  const json trade = parsed(folder / "tradeoff.json");
+  CHECK(trade["choices"].size() == 3);
+  for (const json& choice : trade["choices"])
+    CHECK(choice["setting"]["error_greatest"].get<double>() <= choice["accuracy"].get<double>());
+  std::set<std::string> rungs;
+  for (const json& setting : trade["settings"]) {
+    rungs.insert(setting["rung"].get<std::string>());
+    CHECK(setting["seconds"].get<double>() > 0);
+  }
+  CHECK(rungs == std::set<std::string>{"photons", "rings", "tubes"});
+  // along the front what costs more is nearer the truth
+  double before = HUGE_VAL;
+  for (const json& setting : trade["pareto"]) {
+    CHECK(setting["error_greatest"].get<double>() < before);
+    before = setting["error_greatest"].get<double>();
+  }
+  CHECK_THAT(read_whole(folder / "tradeoff.csv"), Catch::StartsWith("rung,engine,sampler,photons"));
+  CHECK_THAT(read_whole(folder / "report.html"), Contains("<svg"));
 }

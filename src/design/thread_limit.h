@@ -2,7 +2,7 @@
 
 #include <memory>
 
-namespace catoptric::cli {
+namespace catoptric::design {
 
 /// How many threads a run uses, for as long as the object lives; 0: one per core.
 class ThreadLimit {
@@ -15,4 +15,4 @@ class ThreadLimit {
   std::unique_ptr<Control> control_;
 };
 
-}  // namespace catoptric::cli
+}  // namespace catoptric::design

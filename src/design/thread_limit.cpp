@@ -1,9 +1,9 @@
-#include "cli/thread_limit.h"
+#include "design/thread_limit.h"
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 
-namespace catoptric::cli {
+namespace catoptric::design {
 
 struct ThreadLimit::Control {
   tbb::global_control limit;
@@ -16,4 +16,4 @@ ThreadLimit::ThreadLimit(int threads)
 
 ThreadLimit::~ThreadLimit() = default;
 
-}  // namespace catoptric::cli
+}  // namespace catoptric::design

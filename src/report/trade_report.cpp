@@ -1,0 +1,208 @@
+#include "report/trade_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "report/figures.h"
+#include "report/html_report.h"
+#include "report/result_json.h"
+#include "report/run_folder.h"
+
+namespace catoptric::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string bandwidth_word(const design::TradeSetting& setting) {
+  if (setting.accuracy_rel) return "accuracy key";
+  if (setting.model.estimate.neighbours) return "neighbours";
+  return *setting.model.estimate.kernel_radius_mm > 0 ? "kernel radius" : "pointwise";
+}
+
+std::string sampler_word(const design::TradeSetting& setting) {
+  if (setting.rung == sim::Rung::tubes) return "none";
+  return setting.model.photons.sampler == sim::Sampler::sobol ? "sobol" : "random";
+}
+
+/// What one colour and shape stands for in the plot.
+std::string group_of(const design::TradeSetting& setting) {
+  std::string group(name(setting.rung));
+  if (setting.accuracy_rel) return group + ", accuracy key";
+  if (setting.model.engine != design::Engine::meridian)
+    return fmt::format("{}, engine {}", group, name(setting.model.engine));
+  if (setting.rung != sim::Rung::tubes) group += ", " + sampler_word(setting);
+  if (setting.rung == sim::Rung::photons) group += ", " + bandwidth_word(setting);
+  return group;
+}
+
+std::vector<const design::TradeRow*> front_of(const design::Tradeoff& trade) {
+  std::vector<const design::TradeRow*> front;
+  for (const design::TradeRow& row : trade.rows)
+    if (row.on_front) front.push_back(&row);
+  std::sort(front.begin(), front.end(), [](const auto* a, const auto* b) { return a->seconds < b->seconds; });
+  return front;
+}
+
+Json setting_json(const design::Scene& scene, const design::TradeRow& row) {
+  const design::TradeSetting& setting = row.setting;
+  Json json = {{"words", design::words(scene, setting)}, {"rung", std::string(name(setting.rung))}};
+  if (setting.accuracy_rel) json["accuracy"] = *setting.accuracy_rel;
+  json["engine"] = std::string(name(setting.model.engine));
+  json["sampler"] = sampler_word(setting);
+  json["photons"] = row.photons;
+  if (!setting.accuracy_rel) {
+    const auto& estimate = setting.model.estimate;
+    json["kernel"] = std::string(sim::name(estimate.kernel));
+    if (estimate.neighbours) json["neighbours"] = *estimate.neighbours;
+    if (estimate.kernel_radius_mm) json["kernel_radius"] = scene.to_scene_unit(*estimate.kernel_radius_mm);
+  }
+  json["threads"] = setting.threads;
+  json["seconds"] = row.seconds;
+  json["seconds_least"] = row.least_seconds;
+  json["error"] = row.error_rel;
+  json["error_greatest"] = row.greatest_error_rel;
+  json["seeds"] = row.seeds;
+  json["on_front"] = row.on_front;
+  return json;
+}
+
+Json trade_json(const design::Scene& scene, const design::Tradeoff& trade) {
+  Json settings = Json::array(), front = Json::array(), choices = Json::array();
+  for (const design::TradeRow& row : trade.rows) settings.push_back(setting_json(scene, row));
+  for (const design::TradeRow* row : front_of(trade)) front.push_back(setting_json(scene, *row));
+  for (const design::TradeChoice& choice : trade.choices) {
+    Json entry = {{"accuracy", choice.accuracy_rel}, {"setting", nullptr}};
+    if (choice.row) entry["setting"] = setting_json(scene, trade.rows[*choice.row]);
+    choices.push_back(std::move(entry));
+  }
+  return {{"title", scene.title},
+          {"command", "tradeoff"},
+          {"sentence", trade.sentence},
+          {"unit", std::string(symbol(scene.unit))},
+          {"reference", {{"kind", trade.reference}, {"error", trade.reference_error_rel}}},
+          {"field_rms", {{"value", trade.rms_w_per_m2}, {"unit", "W/m^2"}}},
+          {"choices", choices},
+          {"pareto", front},
+          {"settings", settings},
+          {"left_out", trade.left_out},
+          {"machine", trade.machine},
+          {"seconds", trade.seconds},
+          {"seed", scene.seed},
+          {"version", version()}};
+}
+
+TradeFigure trade_figure(const design::Tradeoff& trade) {
+  TradeFigure figure{"Time against error of one evaluation", "time of one evaluation (s)",
+                     "relative RMSE of the irradiance",      {},
+                     {"not beaten by any other", {}, {}},    {0.1, 0.01, 0.001}};
+  // What is nearer the truth than double precision is drawn at the foot of the axis.
+  const auto shown = [](double error) { return std::max(error, 1e-12); };
+  std::map<std::string, Curve> groups;
+  for (const design::TradeRow& row : trade.rows) {
+    Curve& group = groups[group_of(row.setting)];
+    group.x.push_back(row.seconds);
+    group.y.push_back(shown(row.error_rel));
+  }
+  for (auto& [label, group] : groups) {
+    group.label = label;
+    figure.groups.push_back(std::move(group));
+  }
+  for (const design::TradeRow* row : front_of(trade)) {
+    figure.front.x.push_back(row->seconds);
+    figure.front.y.push_back(shown(row->error_rel));
+  }
+  return figure;
+}
+
+}  // namespace
+
+Table trade_table(const design::Scene& scene, const design::Tradeoff& trade) {
+  const std::string length(symbol(scene.unit));
+  Table table{{{"rung", ""},
+               {"engine", ""},
+               {"sampler", ""},
+               {"photons", ""},
+               {"bandwidth", ""},
+               {"kernel", ""},
+               {"kernel_radius", length},
+               {"neighbours", ""},
+               {"threads", ""},
+               {"seconds", "s"},
+               {"seconds_least", "s"},
+               {"error", ""},
+               {"error_greatest", ""},
+               {"seeds", ""},
+               {"on_front", ""}},
+              {}};
+  for (const design::TradeRow& row : trade.rows) {
+    const design::TradeSetting& setting = row.setting;
+    const auto& estimate = setting.model.estimate;
+    const bool radius = !setting.accuracy_rel && estimate.kernel_radius_mm;
+    const bool neighbours = !setting.accuracy_rel && estimate.neighbours;
+    table.rows.push_back(
+        {std::string(name(setting.rung)), std::string(name(setting.model.engine)), sampler_word(setting),
+         static_cast<long long>(row.photons),
+         setting.accuracy_rel ? fmt::format("accuracy {:g}", *setting.accuracy_rel) : bandwidth_word(setting),
+         std::string(sim::name(estimate.kernel)),
+         radius ? Cell{scene.to_scene_unit(*estimate.kernel_radius_mm)} : Cell{},
+         neighbours ? Cell{static_cast<long long>(*estimate.neighbours)} : Cell{},
+         static_cast<long long>(setting.threads), row.seconds, row.least_seconds, row.error_rel,
+         row.greatest_error_rel, static_cast<long long>(row.seeds), static_cast<long long>(row.on_front)});
+  }
+  return table;
+}
+
+Table front_table(const design::Scene& scene, const design::Tradeoff& trade) {
+  Table table{{{"setting", ""},
+               {"time", "ms", 3},
+               {"relative error", "", 3},
+               {"greatest of the seeds", "", 3},
+               {"error", "W/m^2", 3}},
+              {}};
+  for (const design::TradeRow* row : front_of(trade))
+    table.rows.push_back({design::words(scene, row->setting), 1e3 * row->seconds, row->error_rel,
+                          row->greatest_error_rel, row->error_rel * trade.rms_w_per_m2});
+  return table;
+}
+
+WrittenFiles write_tradeoff(const design::Scene& scene, const design::Tradeoff& trade,
+                            const std::filesystem::path& path) {
+  RunFolder folder(path);
+  folder.text("scene.toml", design::scene_text(scene));
+  folder.text("tradeoff.json", json_text(trade_json(scene, trade)));
+  folder.table("tradeoff.csv", trade_table(scene, trade));
+  const auto figures =
+      folder.draw_all({{"tradeoff", "Time against error", trade_script(trade_figure(trade))}});
+  Page page{scene.title.empty() ? scene.settings.file() : scene.title,
+            trade.sentence,
+            {},
+            {},
+            fmt::format("catoptric {} · seed {} · run again with: catoptric tradeoff scene.toml", version(),
+                        scene.seed)};
+  page.facts = {
+      {"Truth", fmt::format("{} (relative error {:.2g})", trade.reference, trade.reference_error_rel)},
+      {"Root mean square of the field", fmt::format("{:.5g} W/m²", trade.rms_w_per_m2)},
+      {"Machine", trade.machine},
+      {"Settings", fmt::format("{} measured, {} left out", trade.rows.size(), trade.left_out.size())},
+      {"Time", fmt::format("{:.1f} s", trade.seconds)}};
+  PageSection picture{"Time against error", {}, {}, {}, {}};
+  for (const DrawnFigure& figure : figures)
+    picture.figures.push_back(
+        {figure.caption, figure.svg, "not drawn; its data is in figures/" + figure.name + ".gp"});
+  page.sections = {picture,
+                   {"Settings that no other beats",
+                    {"An error is the root mean square over the samples against the truth, relative to the "
+                     "field's root mean square; of several seeds their root mean square."},
+                    {},
+                    {{"", front_table(scene, trade)}},
+                    {}},
+                   {"All settings", trade.left_out, {}, {{"", trade_table(scene, trade)}}, {}}};
+  folder.text("report.html", html_page(page));
+  return folder.take();
+}
+
+}  // namespace catoptric::report
