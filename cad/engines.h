@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "base/profile.h"
 #include "base/ray.h"
@@ -26,5 +27,29 @@ std::unique_ptr<Reflector> make_occt_reflector(const Profile& profile);
 /// @cost  0.2 to 0.6 us a ray for a few spans (growing with their logarithm); 0.01 to 4 ms for those in 113
 /// bits
 std::unique_ptr<Reflector> make_meridian_reflector(const Profile& profile);
+
+/// How near engine "mesh" follows the mirror.
+struct MeshOptions {
+  /// Greatest distance of a facet from the true surface, over the part's diagonal; 1e-6 to 0.05. The facets
+  /// stand on both sides of it.
+  double chord_error = 1e-4;
+  /// In mm instead, the same range of the part.
+  std::optional<double> chord_error_mm;
+  /// Newton's method stops when ray and surface are this near each other, over the part's diagonal. From the
+  /// chord error on (1, say) nothing is refined: the hit is the facet's own, its normal that of the
+  /// generatrix at the parameter interpolated there.
+  double newton_tolerance = 1e-14;
+};
+
+/// Engine "mesh", a peer for the trade of time against error: triangles asked by Embree, each hit refined by
+/// Newton's method onto the true surface. A probe lives no longer than its reflector.
+///
+/// It finds what its facets find. A ray that grazes the surface within the chord error of it may pass beside
+/// the facets (a hit is lost, or a later one taken for the first); no hit is invented, since what Newton's
+/// method does not bring onto the surface is dropped. Unrefined hits are only the facets'.
+/// @fails InputError for options out of range; CadError when Embree cannot start
+/// @error hits to newton_tolerance, not less than some ten roundings, of the part's size over the cosine of
+///        incidence
+std::unique_ptr<Reflector> make_mesh_reflector(const Profile& profile, const MeshOptions& options = {});
 
 }  // namespace catoptric::cad
