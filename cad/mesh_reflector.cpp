@@ -38,7 +38,7 @@ struct Model {
       : table(profile),
         chord(chord_mm(profile, options)),
         tolerance(options.newton_tolerance * profile.diagonal_mm()),
-        reach(std::sqrt(table.reach_squared) + 4 * chord),
+        reach(std::sqrt(table.reach_squared) + 20 * chord),
         same(same_hit(profile.diagonal_mm(), options.newton_tolerance)),
         facets(table, chord),
         scene(std::move(facets.mesh)) {}
@@ -62,7 +62,8 @@ struct Model {
 template <int Degree>
 class MeshProbe final : public Probe {
  public:
-  explicit MeshProbe(const Model& model) : model_(model), refine_(model.table, model.tolerance) {}
+  explicit MeshProbe(const Model& model)
+      : model_(model), refine_(model.table, model.facets, model.chord, model.tolerance) {}
 
   std::optional<Hit> first_hit(const Ray& ray, double beyond_mm) override {
     std::optional<Hit> hit;
@@ -159,7 +160,7 @@ std::optional<Candidate> MeshProbe<Degree>::candidate(const Piece& piece, std::u
   const double t = piece.start_mm + at->t / model_.facets.scale;
   const bool refined = model_.tolerance < model_.chord;
   if (!refined && model_.facets.strips[model_.facets.places[triangle].strip].beyond) return std::nullopt;
-  return refine_(piece.near, t, model_.facets.at(*at));
+  return refine_(piece.near, t, *at);
 }
 
 /// All hits that count into candidates_, nearest first, each once.

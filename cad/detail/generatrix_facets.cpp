@@ -53,7 +53,8 @@ class Flattener {
       const std::size_t last = static_cast<std::size_t>(degree_);
       const Vector2 start = pole(piece, 0), end = pole(piece, last);
       if (start != end)
-        chords_.push_back({start, end, {piece.span, piece.lo, piece.lo + piece.width, false, false}});
+        chords_.push_back(
+            {start, end, {piece.span, piece.lo, piece.lo + piece.width, (end - start).norm(), false, false}});
       return;
     }
     if (chords_.size() > most_triangles)
@@ -94,12 +95,14 @@ void extend(std::vector<Chord>& chords, double length_mm) {
   };
   const Chord first = chords.front(), last = chords.back();
   if (first.start.x() > 0)
-    chords.insert(chords.begin(), {past(first.end, first.start),
-                                   first.start,
-                                   {first.strip.span, first.strip.s0, first.strip.s0, true, false}});
+    chords.insert(chords.begin(),
+                  {past(first.end, first.start),
+                   first.start,
+                   {first.strip.span, first.strip.s0, first.strip.s0, length_mm, true, false}});
   if (last.end.x() > 0)
-    chords.push_back(
-        {last.end, past(last.start, last.end), {last.strip.span, last.strip.s1, last.strip.s1, true, false}});
+    chords.push_back({last.end,
+                      past(last.start, last.end),
+                      {last.strip.span, last.strip.s1, last.strip.s1, length_mm, true, false}});
 }
 
 /// Least distance of two segments that do not cross lies at an end of one.
@@ -192,7 +195,10 @@ GeneratrixFacets::GeneratrixFacets(const SpanTable& table, double chord_mm)
   for (const Piece<meridian::Quad>& span : table.exact)
     if (!table.spans[static_cast<std::size_t>(span.span)].is_point) flattener.run(meridian::rounded(span), 0);
   const bool closed = !table.exact.front().free_lo;
-  if (!closed) extend(chords, 2 * chord_mm);
+  // A ray that comes in flat meets the facets before or behind the surface: up to sixteen chord errors away
+  // when it comes at sixteen to one.
+  constexpr double flattest = 16;
+  if (!closed) extend(chords, flattest * chord_mm);
   mark_crowded(chords, 4 * chord_mm, closed);
 
   const Polygon polygon(table.r_extent, 0.5 * chord_mm);

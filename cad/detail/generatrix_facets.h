@@ -12,6 +12,7 @@ namespace catoptric::cad::detail {
 struct FacetStrip {
   int span;
   double s0, s1;
+  double length_mm;
   bool beyond;   ///< drawn on past an end of the generatrix, so that rays to the very rim meet a facet
   bool crowded;  ///< another part of the generatrix is so near that the order of facets is not that of hits
 };
