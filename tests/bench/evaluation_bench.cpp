@@ -1,4 +1,5 @@
 #include <benchmark/benchmark.h>
+#include <malloc.h>
 #include <tbb/global_control.h>
 
 #include "cad/engines.h"
@@ -36,6 +37,12 @@ struct Stage {
   double margin_mm = sim::recording_margin_mm(start_a().near_field, start_a().model.estimate);
 };
 
+/// Bytes the program holds.
+double bytes_held() {
+  const struct mallinfo2 now = mallinfo2();
+  return static_cast<double>(now.uordblks + now.hblkhd);
+}
+
 void trace(benchmark::State& state) {
   const auto threads = limit(state);
   const Stage stage;
@@ -49,7 +56,12 @@ void tree(benchmark::State& state) {
   const Stage stage;
   const auto photons = sim::trace_photons(stage.scene, start_a().model.photons, stage.margin_mm);
   for (auto _ : state) benchmark::DoNotOptimize(sim::PhotonMap(start_a().near_field, photons));
-  rate(state, "points", static_cast<double>(photons.crossings.size()));
+  const auto points = static_cast<double>(photons.crossings.size());
+  rate(state, "points", points);
+  const double before = bytes_held();
+  const sim::PhotonMap map(start_a().near_field, photons);
+  state.counters["bytes_per_point"] = (bytes_held() - before) / points;
+  state.counters["bytes_per_crossing"] = sizeof(sim::Crossing);
 }
 
 void estimate(benchmark::State& state) {
