@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
   for (const auto& [part, profile] :
        {std::pair{"paraboloid", paraboloid}, std::pair{"freeform", freeform()}}) {
     register_engine(part, cad::make_meridian_reflector(profile));
+    register_engine(part, cad::make_mesh_reflector(profile));
     register_engine(part, cad::make_occt_reflector(profile));
   }
   benchmark::Initialize(&argc, argv);
