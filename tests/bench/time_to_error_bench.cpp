@@ -69,9 +69,11 @@ std::vector<double> by_rings(const Setting& at, std::uint64_t count, std::uint64
   return sim::rings_field(at.scene, at.radii_mm, options).irradiance;
 }
 
-/// Pointwise, to the tolerance that is wanted; it takes as many rays as it needs.
+/// Smoothed as the photons' estimate is, to the tolerance that is wanted; it takes the rays it needs, at most
+/// `count`.
 std::vector<double> by_tubes(const Setting& at, std::uint64_t count) {
   sim::TubesOptions options;
+  options.kernel_radius_mm = kernel_radius_mm;
   options.tolerance_w_per_mm2 = from_w_per_m2(wanted_w_per_m2);
   options.most_rays = static_cast<int>(count);
   return sim::tubes_field(at.scene, at.samples, options).irradiance;
