@@ -28,7 +28,8 @@ def commit_of(tree, revision="HEAD"):
 
 def build(tree):
     """Configures and builds everything that preset `bench` has; returns the programs by name."""
-    quiet = {"cwd": tree}
+    # Paths relative to the tree, so that ccache serves one worktree from another.
+    quiet = {"cwd": tree, "env": {**os.environ, "CCACHE_BASEDIR": str(tree), "CCACHE_NOHASHDIR": "1"}}
     run(["cmake", "--preset", "bench"], **quiet)
     configured = (pathlib.Path(tree) / "tests" / "bench").glob("*_bench.cpp")
     names = sorted("bench_" + path.name.removesuffix("_bench.cpp") for path in configured)
