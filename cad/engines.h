@@ -36,8 +36,8 @@ struct MeshOptions {
   /// In mm instead, the same range of the part.
   std::optional<double> chord_error_mm;
   /// Newton's method stops when ray and surface are this near each other, over the part's diagonal. From the
-  /// chord error on (1, say) nothing is refined: the hit is the facet's own, its normal that of the
-  /// generatrix at the parameter interpolated there.
+  /// chord error on (1, say) nothing is refined: the parameter is the one interpolated on the facet, and
+  /// point and normal are the generatrix's there.
   double newton_tolerance = 1e-14;
 };
 
@@ -45,11 +45,15 @@ struct MeshOptions {
 /// Newton's method onto the true surface. A probe lives no longer than its reflector.
 ///
 /// It finds what its facets find. A ray that grazes the surface within the chord error of it may pass beside
-/// the facets (a hit is lost, or a later one taken for the first); no hit is invented, since what Newton's
-/// method does not bring onto the surface is dropped. Unrefined hits are only the facets'.
-/// @fails InputError for options out of range; CadError when Embree cannot start
+/// the facets: the hit is lost, or a later one taken for the first. Lost of a million rays on the paper's
+/// paraboloid at 1e-4: none of the focus, of all directions, or along the axis up to the rim; 9500 of those
+/// that come from far to graze it (README.md). No hit is invented: what does not come onto the surface is
+/// dropped. Batches are answered ray by ray, since Embree's packets of 4, 8 and 16 rays gain nothing here.
+/// @fails InputError for options out of range, or for more than 4 million triangles; CadError when Embree
+///        cannot start
 /// @error hits to newton_tolerance, not less than some ten roundings, of the part's size over the cosine of
 ///        incidence
+/// @cost  0.4 to 0.6 us a ray for 8000 triangles, which take 1 MB and some ms to build
 std::unique_ptr<Reflector> make_mesh_reflector(const Profile& profile, const MeshOptions& options = {});
 
 }  // namespace catoptric::cad
