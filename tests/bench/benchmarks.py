@@ -19,7 +19,11 @@ NO_COUNTERS = {
 
 
 def run(command, **options):
-    return subprocess.run(command, check=True, text=True, stdout=subprocess.PIPE, **options).stdout
+    """What a command prints; ends the script with it when the command fails."""
+    done = subprocess.run(command, text=True, stdout=subprocess.PIPE, **options)
+    if done.returncode != 0:
+        raise SystemExit(f"{done.stdout}{' '.join(map(str, command))}: exit code {done.returncode}")
+    return done.stdout
 
 
 def commit_of(tree, revision="HEAD"):

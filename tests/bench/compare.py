@@ -11,8 +11,10 @@ ratio.
 
 import argparse
 import pathlib
+import signal
 import statistics
 import subprocess
+import sys
 import tempfile
 
 import benchmarks
@@ -84,6 +86,7 @@ def main():
     commits = [benchmarks.commit_of(benchmarks.ROOT, name) for name in (options.base, options.change)]
     if commits[0] == commits[1]:
         raise SystemExit("compare: both names mean the same commit")
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("compare: stopped"))  # the worktrees go all the same
     with tempfile.TemporaryDirectory(prefix="catoptric-compare-") as folder:
         trees = []
         try:
