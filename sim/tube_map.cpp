@@ -15,6 +15,9 @@ namespace {
 /// times this, is below the rounding of the field.
 constexpr double step_inside_rad = 1e-14;
 
+/// What one division of an interval may need: an edge's halvings, and three rays for each of its sides.
+constexpr int most_halvings = 8, rays_a_division = most_halvings + 6;
+
 /// Rays nearer than this are not told apart: the middle between them is at the rounding of their angles.
 constexpr double least_width_rad = 8e-15;
 
@@ -24,8 +27,8 @@ struct Node {
   Dropped dropped;
 };
 
-/// Emission angles between two rays, with the rays at the quarters. An edge has none: the paths differ on its
-/// sides, which lie next to each other.
+/// Emission angles between two rays, with the rays at the quarters. An edge has none: the paths of its two
+/// rays differ.
 struct Interval {
   std::array<std::size_t, 5> nodes;
   double error = 0;
@@ -62,7 +65,7 @@ class TubeMaker {
   TubeMap make(const std::vector<double>& breaks) {
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
       start(breaks[i] + step_inside_rad, breaks[i + 1] - step_inside_rad);
-    while (!open_.empty() && map_.rays + 4 <= goal_.most_rays) {
+    while (!open_.empty() && map_.rays + rays_a_division <= goal_.most_rays) {
       std::pop_heap(open_.begin(), open_.end(), smaller);
       const Interval interval = open_.back();
       open_.pop_back();
@@ -108,29 +111,50 @@ class TubeMaker {
 
   void divide(const Interval& interval) {
     const auto& nodes = interval.nodes;
-    for (std::size_t i = 0; i < 4; ++i)
-      if (!same_paths(nodes[i], nodes[i + 1])) return split_at_edge(interval, i);
-    open(nodes[0], nodes[1], nodes[2]);
-    open(nodes[2], nodes[3], nodes[4]);
+    if (interval.is_edge) return divide_edge(interval.low(), interval.high());
+    if (one_path(interval)) {
+      open(nodes[0], nodes[1], nodes[2]);
+      return open(nodes[2], nodes[3], nodes[4]);
+    }
+    std::size_t run = 0;  // the first ray of those that take one path
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (same_paths(nodes[i], nodes[i + 1])) continue;
+      open_side(nodes[run], nodes[i]);
+      open_edge(nodes[i], nodes[i + 1]);
+      run = i + 1;
+    }
+    open_side(nodes[run], nodes[4]);
   }
 
-  /// Bisects between the first two rays whose paths differ; what lies on both sides goes on alone.
-  void split_at_edge(const Interval& interval, std::size_t before) {
-    std::size_t low = interval.nodes[before], high = interval.nodes[before + 1];
-    while (theta(high) - theta(low) > 2 * least_width_rad && map_.rays < goal_.most_rays &&
-           !(h_ > 0 && edge_error(low, high) < 1e-4 * goal_.tolerance_w_per_mm2)) {
+  /// Bisects between two rays whose paths differ, as long as there seems to be one edge between them and for
+  /// some halvings; what lies on its sides goes on alone.
+  void divide_edge(std::size_t first, std::size_t last) {
+    std::size_t low = first, high = last, inside = last;
+    for (int i = 0; i < most_halvings && theta(high) - theta(low) > 2 * least_width_rad; ++i) {
       const std::size_t middle = trace_between(low, high);
-      (same_paths(low, middle) ? low : high) = middle;
+      const bool below = same_paths(low, middle), above = same_paths(middle, high);
+      if (!below && !above) {
+        inside = middle;
+        break;
+      }
+      (below ? low : high) = middle;
     }
-    open_side(interval.low(), low);
+    open_side(first, low);
+    if (inside != last) open_edge(low, inside);
+    open_edge(inside != last ? inside : low, high);
+    open_side(high, last);
+  }
+
+  void open_edge(std::size_t low, std::size_t high) {
     Interval edge{{low, low, high, high, high}};
     edge.is_edge = true;
     open(edge);
-    open_side(high, interval.high());
   }
 
   void open_side(std::size_t low, std::size_t high) {
-    if (theta(high) - theta(low) > 0) open(low, trace_between(low, high), high);
+    if (low == high) return;
+    if (!same_paths(low, high)) return open_edge(low, high);
+    open(low, trace_between(low, high), high);
   }
 
   void start(double low_rad, double high_rad) {
@@ -168,13 +192,8 @@ class TubeMaker {
 
   double width(const Interval& interval) const { return theta(interval.high()) - theta(interval.low()); }
 
-  /// What light between two rays can make at most, W/mm^2.
-  double edge_error(std::size_t low, std::size_t high) const {
-    return power_w_ * flux_share(theta(low), theta(high)) * std::max(weight(low), weight(high)) *
-           kernel_peak_per_mm2(h_);
-  }
-
   bool one_path(const Interval& interval) const {
+    if (interval.is_edge) return false;
     for (std::size_t i = 0; i < 4; ++i)
       if (!same_paths(interval.nodes[i], interval.nodes[i + 1])) return false;
     return true;
@@ -268,7 +287,7 @@ class TubeMaker {
   }
 
   bool worth_halving(const Interval& interval) const {
-    if (interval.is_edge || !(interval.error > 0) || width(interval) < 4 * least_width_rad) return false;
+    if (!(interval.error > 0) || width(interval) < 4 * least_width_rad) return false;
     if (h_ <= 0) return true;
     // Thousands of these would not matter, so what is still too much cannot be mended by rays.
     if (interval.error < 1e-4 * goal_.tolerance_w_per_mm2) return false;
@@ -283,7 +302,10 @@ class TubeMaker {
       book(interval, 1);
       map_.cut_off_w += power_w_ * flux_share(theta(interval.low()), theta(interval.high())) *
                         nodes_[interval.nodes[2]].dropped.cut_off;
-      if (one_path(interval)) emit(interval);
+      if (one_path(interval))
+        emit(interval);
+      else
+        emit_pairs(interval);
     }
     if (h_ > 0) map_.error_w_per_mm2 = bins_.worst();
   }
@@ -292,23 +314,33 @@ class TubeMaker {
     const auto& nodes = interval.nodes;
     for (std::size_t i = 0; i < nodes_[interval.low()].count; ++i) {
       const Misfit fit = misfit(interval, i);
-      for (const std::size_t first : {0, 2}) {
-        const std::size_t low = nodes[first], middle = nodes[first + 1], high = nodes[first + 2];
-        const Landing& ray = landing(middle, i);
-        map_.landed_w += power_w_ * flux_share(theta(low), theta(high)) * ray.weight;
-        Tube tube{theta(low),
-                  theta(high),
-                  {},
-                  landing(low, i).rho_mm,
-                  landing(high, i).rho_mm,
-                  counted * fit.mm,
-                  counted * fit.slope,
-                  ray.weight,
-                  ray.path};
-        hermite(low, middle, high, i).quintic(tube.rho);
-        map_.tubes.push_back(tube);
+      for (const std::size_t first : {0, 2})
+        emit(nodes[first], nodes[first + 2], i, hermite(nodes[first], nodes[first + 1], nodes[first + 2], i),
+             {counted * fit.mm, counted * fit.slope});
+    }
+  }
+
+  /// Where rays did not suffice: what the neighbours on one path tell, all of which the error counts.
+  void emit_pairs(const Interval& interval) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t low = interval.nodes[k], high = interval.nodes[k + 1];
+      if (low == high || !same_paths(low, high)) continue;
+      for (std::size_t i = 0; i < nodes_[low].count; ++i) {
+        Hermite ends = hermite(low, low, high, i);
+        ends.middle = 0.5 * (ends.first + ends.last) + 0.25 * (ends.d_first - ends.d_last);
+        ends.d_middle = 0.75 * (ends.last - ends.first) - 0.25 * (ends.d_first + ends.d_last);
+        emit(low, high, i, ends, {HUGE_VAL, HUGE_VAL});
       }
     }
+  }
+
+  void emit(std::size_t low, std::size_t high, std::size_t i, const Hermite& through, const Misfit& off) {
+    const Landing &first = landing(low, i), &last = landing(high, i);
+    map_.landed_w += power_w_ * flux_share(theta(low), theta(high)) * first.weight;
+    Tube tube{theta(low), theta(high), {},           first.rho_mm, last.rho_mm,
+              off.mm,     off.slope,   first.weight, first.path};
+    through.quintic(tube.rho);
+    map_.tubes.push_back(tube);
   }
 
   const TubeTracer& tracer_;

@@ -26,7 +26,7 @@ constexpr std::array<double, lanes> gauss_w = {0.10122853629037618, 0.2223810344
                                                0.22238103445337445, 0.10122853629037618};
 
 /// One end of the kernel in one panel may use up this share of the tolerance.
-constexpr double edge_share = 0.02;
+constexpr double edge_share = 0.005;
 
 /// Longest panel in kernel radii and in emission angle, for what is smooth: eight nodes leave some 1e-10.
 constexpr double longest_panel = 0.5, longest_panel_rad = 0.2;

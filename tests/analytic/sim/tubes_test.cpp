@@ -34,6 +34,13 @@ double paraboloid_irradiance(double r) {
   return focus.power_w() / (4 * pi * distance * distance);
 }
 
+/// Pointwise, every branch polished by rays of its own.
+TubesOptions polished() {
+  TubesOptions options;
+  options.tolerance_w_per_mm2 = 0;
+  return options;
+}
+
 TubesOptions smooth(double h, double tolerance_w_per_m2 = 1e-6) {
   TubesOptions options;
   options.kernel_radius_mm = h;
@@ -84,7 +91,17 @@ TEST_CASE("the kernel's mean over a ring is that of a fine sum", "[tubes]") {
             0.0, last, 8, 1e-14);
         INFO("h " << h << ", r " << r << ", ring " << ring);
         // Near the edge r - ring itself is known to a rounding of 1e4: 1e-12 of h.
-        CHECK(tube_kernel_per_mm2(r, ring, h) * pi * h * h == Approx(sum / pi).epsilon(1e-11).margin(1e-12));
+        const RingKernel kernel = ring_kernel(r / h, ring / h);
+        CHECK(3 * kernel.value == Approx(sum / pi).epsilon(1e-11).margin(1e-12));
+        // Its derivative by the ring's radius, by Richardson's differences, away from the kernel's edges.
+        const double at = r / h, q = ring / h, step = 1e-3;
+        if (std::min({q, std::abs(q - at - 1), std::abs(q - std::abs(at - 1))}) < 2 * step || q > 100)
+          continue;
+        const auto difference = [&](double d) {
+          return (ring_kernel(at, q + d).value - ring_kernel(at, q - d).value) / (2 * d);
+        };
+        CHECK(kernel.slope ==
+              Approx((4 * difference(step / 2) - difference(step)) / 3).epsilon(1e-7).margin(1e-9));
       }
 }
 
@@ -93,7 +110,7 @@ TEST_CASE("tubes reach the paraboloid's closed form, centre and rim included", "
   std::vector<double> radii = steps(0, 99.9, 40);
   for (const double r : {1e-9, 1e-3, 100 * (1 - 1e-6), 100 * (1 - 1e-9), 100 * (1 + 1e-9), 150.0})
     radii.push_back(r);
-  const TubesField field = tubes_field(focus, mirror.profile(), {}, ground, radii, {});
+  const TubesField field = tubes_field(focus, mirror.profile(), {}, ground, radii, polished());
   for (std::size_t i = 0; i < radii.size(); ++i) {
     INFO("r " << radii[i]);
     CHECK(field.irradiance[i] == Approx(paraboloid_irradiance(radii[i])).epsilon(1e-11).margin(0));
@@ -102,6 +119,18 @@ TEST_CASE("tubes reach the paraboloid's closed form, centre and rim included", "
   CHECK(field.rays < 300);
   CHECK(field.landed_w == Approx(focus.power_w() / 2).epsilon(1e-12));
   CHECK(field.cut_off_w == 0);
+}
+
+TEST_CASE("a tolerance spares the rays that polish", "[tubes]") {
+  const auto mirror = test::paraboloid(a_mm);
+  const std::vector<double> radii = steps(0, 110, 1024);
+  const TubesField field = tubes_field(focus, mirror.profile(), {}, ground, radii, smooth(0, 5e-7));
+  CHECK(field.rays <= 40);
+  CHECK(field.error_w_per_mm2 <= from_w_per_m2(5e-7));
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    INFO("r " << radii[i]);
+    CHECK(std::abs(field.irradiance[i] - paraboloid_irradiance(radii[i])) <= field.error_w_per_mm2);
+  }
 }
 
 TEST_CASE("tubes reach the paraboloid smoothed, over its sharp rim", "[tubes]") {
@@ -126,7 +155,7 @@ TEST_CASE("a sphere about the source sends each ray back: reflected is direct", 
     const double d = std::hypot(r, a_mm);
     return focus.power_w() / (4 * pi) * a_mm / (d * d * d);
   };
-  const TubesField field = tubes_field(focus, mirror.profile(), {0.8, 0}, ground, radii, {});
+  const TubesField field = tubes_field(focus, mirror.profile(), {0.8, 0}, ground, radii, polished());
   for (std::size_t i = 0; i < radii.size(); ++i) {
     INFO("r " << radii[i]);
     CHECK(field.irradiance[i] == Approx(0.8 * direct(radii[i])).epsilon(1e-11));
@@ -170,7 +199,7 @@ TEST_CASE("a cone's light comes from the mirrored source, a cylinder's too", "[t
       return sum;
     };
     const std::vector<double> radii = steps(0.5, 200, 50);
-    const TubesField field = tubes_field(focus, mirror.profile(), {}, ground, radii, {});
+    const TubesField field = tubes_field(focus, mirror.profile(), {}, ground, radii, polished());
     for (std::size_t i = 0; i < radii.size(); ++i) {
       INFO("cone from " << c.r_low << " to " << c.r_high << ", r " << radii[i]);
       CHECK(field.irradiance[i] == Approx(truth(radii[i])).epsilon(1e-10).margin(1e-20));
@@ -240,11 +269,13 @@ TEST_CASE("light through the mirror counts, and light that comes from below does
   // passes the source and never meets the dome again.
   const auto mirror = test::half_ellipsoid(a_mm, 50, 50);
   const std::vector<double> radii{0, 40};
-  const TubesField below = tubes_field(focus, mirror.profile(), {0.25, 0.75}, ground, radii, {});
+  const TubesField below = tubes_field(focus, mirror.profile(), {0.25, 0.75}, ground, radii, polished());
   CHECK(below.irradiance[0] == Approx(0.25 * focus.power_w() / (4 * pi * 2500)).epsilon(1e-12));
-  const TubesField above = tubes_field(focus, mirror.profile(), {0.25, 0.75}, {150, false}, radii, {});
+  const TubesField above =
+      tubes_field(focus, mirror.profile(), {0.25, 0.75}, {150, false}, radii, polished());
   CHECK(above.irradiance[0] == Approx(0.75 * focus.power_w() / (4 * pi * 10000)).epsilon(1e-12));
-  CHECK(tubes_field(focus, mirror.profile(), {0.25, 0.75}, {150, true}, radii, {}).irradiance[0] == 0);
+  CHECK(tubes_field(focus, mirror.profile(), {0.25, 0.75}, {150, true}, radii, polished()).irradiance[0] ==
+        0);
 }
 
 TEST_CASE("the rung says in words what it cannot light", "[tubes]") {
