@@ -27,6 +27,21 @@ struct Tube {
   double theta_rad(double x) const { return 0.5 * (first_rad + last_rad) + x * half_width_rad(); }
 };
 
+/// Values and derivatives by x of three rays at -1, 0, 1, as the quintic through them.
+struct Hermite {
+  double first, middle, last, d_first, d_middle, d_last;
+  void quintic(double (&c)[6]) const {
+    const double even = 0.5 * (first + last) - middle, turn = 0.5 * (d_last - d_first);
+    const double odd = 0.5 * (last - first) - d_middle, rise = 0.5 * (d_first + d_last) - d_middle;
+    c[0] = middle;
+    c[1] = d_middle;
+    c[2] = 2 * even - 0.5 * turn;
+    c[4] = 0.5 * turn - even;
+    c[5] = 0.5 * rise - 1.5 * odd;
+    c[3] = odd - c[5];
+  }
+};
+
 /// What the tubes are for, which decides where they are refined.
 struct TubeGoal {
   double r_max_mm;             ///< largest radius asked for

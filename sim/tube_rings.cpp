@@ -82,9 +82,10 @@ __attribute__((always_inline)) inline double place_of(const Panel& panel, double
   return x;
 }
 
-/// A panel in which the kernel begins or ends, or both.
-__attribute__((always_inline)) inline void add_cut(const Panel& panel, const Reach& reach, double at,
-                                                   double inner, double outer, double* sums) {
+/// The parts of a panel between the places where the kernel begins or ends, as far as it reaches them.
+template <typename Take>
+__attribute__((always_inline)) inline void for_each_part(const Panel& panel, const Reach& reach, double at,
+                                                         double inner, double outer, const Take& take) {
   double cuts[4] = {-1, 1, 1, 1};
   std::size_t count = 1;
   for (const double edge : {inner, outer})
@@ -94,9 +95,7 @@ __attribute__((always_inline)) inline void add_cut(const Panel& panel, const Rea
   for (std::size_t i = 0; i < count; ++i) {
     const double middle = panel.at(0.5 * (cuts[i] + cuts[i + 1]));
     if (middle > outer || (at > 1 && middle < inner)) continue;
-    Block nodes;
-    place_nodes(panel, cuts[i], cuts[i + 1], nodes);
-    add_block(nodes, at, sums);
+    take(cuts[i], cuts[i + 1]);
   }
 }
 
@@ -109,11 +108,35 @@ double sum_at(const Panel* panels, const Reach* reaches, std::size_t count, doub
     const Reach reach = reaches[k];
     if (!(reach.most > least && reach.least < outer)) continue;
     if ((reach.least < inner && inner < reach.most) || outer < reach.most)
-      add_cut(panels[k], reach, at, inner, outer, sums);
+      for_each_part(panels[k], reach, at, inner, outer, [&](double low, double high) {
+        Block nodes;
+        place_nodes(panels[k], low, high, nodes);
+        add_block(nodes, at, sums);
+      });
     else
       add_block(panels[k].nodes, at, sums);
   }
   return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+}
+
+/// Adds the moments of a part of a panel.
+CATOPTRIC_VECTOR_CLONES
+void add_moments(const Panel& panel, double low, double high, double at, std::array<double, 6>& moments) {
+  Block nodes;
+  place_nodes(panel, low, high, nodes);
+  double answer[lanes], x[lanes];
+  for (std::size_t i = 0; i < lanes; ++i) {
+    answer[i] = panel.sign * nodes.power[i] * ring_kernel(at, nodes.ring[i]).slope;
+    x[i] = panel.centre + panel.half * (0.5 * (low + high) + 0.5 * (high - low) * gauss_x[i]);
+  }
+  for (double& moment : moments) {
+    double sum = 0;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      sum += answer[i];
+      answer[i] *= x[i];
+    }
+    moment += sum;
+  }
 }
 
 /// The part [low, high] of a panel as a panel.
@@ -129,6 +152,8 @@ Panel part_of(const Panel& whole, double low, double high) {
     scale *= half;
   }
   part.half_rad = whole.half_rad * half;
+  part.centre = centre;  // of the tube's x, since wholes are parts of tubes
+  part.half = half;
   part.power = whole.power * half;
   return part;
 }
@@ -206,7 +231,7 @@ TubeRings::TubeRings(std::span<const Tube> tubes, double power_w, double kernel_
       bins_(std::max(radii_mm.back(), kernel_radius_mm)) {
   for (const RadiusGroup& group : groups_of(radii_mm, 2 * h_))
     windows_.push_back({radii_mm[group.first] / h_ - 1, radii_mm[group.end - 1] / h_ + 1});
-  for (const Tube& tube : tubes) add(tube);
+  for (std::size_t i = 0; i < tubes.size(); ++i) add(tubes[i], i);
   for (const double end : ends_of(tubes)) {
     if (std::abs(end) < 1e-9 * h_) continue;  // the axis, across which the light goes on
     for (const double edge : {std::abs(end) - h_, std::abs(end) + h_, h_ - std::abs(end)})
@@ -221,12 +246,13 @@ bool TubeRings::is_seen(const Reach& reach) const {
   return window != windows_.end() && window->least < reach.most;
 }
 
-void TubeRings::add(const Tube& tube) {
+void TubeRings::add(const Tube& tube, std::size_t index) {
   double swing = 0;
   for (std::size_t k = 1; k < 6; ++k) swing += std::abs(tube.rho[k]);
   const double centre = std::abs(tube.rho[0]);
   if (!is_seen({std::max(0.0, centre - swing) / h_, (centre + swing) / h_})) return;
   Panel whole{};
+  whole.tube = index;
   whole.half_rad = tube.half_width_rad();
   whole.power = 0.5 * power_w_ * tube.weight * whole.half_rad * kernel_peak_per_mm2(h_);
   const std::vector<double> cuts = cuts_of(tube);
@@ -234,6 +260,7 @@ void TubeRings::add(const Tube& tube) {
     if (!(cuts[i] < cuts[i + 1])) continue;
     const double sign = tube.at(0.5 * (cuts[i] + cuts[i + 1])) < 0 ? -1 : 1;
     for (std::size_t k = 0; k < 6; ++k) whole.ring[k] = sign * tube.rho[k] / h_;
+    whole.sign = sign;
     divide(whole, tube.theta_rad(0), cuts[i], cuts[i + 1], 0);
   }
 }
@@ -278,6 +305,20 @@ void TubeRings::book(const Reach& reach, double error) {
 void TubeRings::smoothed(std::span<const double> at_mm, std::span<double> values) const {
   for (std::size_t i = 0; i < at_mm.size(); ++i)
     values[i] = sum_at(panels_.data(), reaches_.data(), panels_.size(), at_mm[i] / h_);
+}
+
+void TubeRings::moments(double at_mm, std::span<std::array<double, 6>> moments) const {
+  std::fill(moments.begin(), moments.end(), std::array<double, 6>{});
+  const double at = at_mm / h_, inner = std::abs(at - 1), outer = at + 1;
+  for (std::size_t k = 0; k < panels_.size(); ++k) {
+    const Reach reach = reaches_[k];
+    if (!(reach.most > at - 1 && reach.least < outer)) continue;
+    for_each_part(panels_[k], reach, at, inner, outer, [&](double low, double high) {
+      add_moments(panels_[k], low, high, at, moments[panels_[k].tube]);
+    });
+  }
+  for (auto& moment : moments)
+    for (double& each : moment) each /= h_;
 }
 
 }  // namespace catoptric::sim

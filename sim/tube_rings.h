@@ -29,6 +29,11 @@ class TubeRings {
   /// @cost  some 0.3 us a radius and branch
   void smoothed(std::span<const double> at_mm, std::span<double> values) const;
 
+  /// How the field at a radius answers to changes of the tubes: moments[tube][k] times what is added to the
+  /// tube's rho[k], summed, is added to the irradiance.
+  /// @in    moments: as many as tubes; overwritten
+  void moments(double at_mm, std::span<std::array<double, 6>> moments) const;
+
   double error_w_per_mm2() const { return bins_.worst(); }
 
   /// Where the smoothed field is less smooth: radii at which the kernel passes the end of a branch or a fold.
@@ -46,7 +51,10 @@ class TubeRings {
     std::array<double, 6> ring;  ///< coefficients, in kernel radii
     double sine, cosine;         ///< of the emission angle at x = 0
     double half_rad;
-    double power;  ///< per unit of x and sine, times the kernel's peak
+    double power;         ///< per unit of x and sine, times the kernel's peak
+    std::size_t tube;     ///< index of the tube
+    double centre, half;  ///< x of the tube is centre + half x
+    double sign;          ///< of the tube's radius
     Block nodes;
     double at(double x) const {
       return ring[0] + x * (ring[1] + x * (ring[2] + x * (ring[3] + x * (ring[4] + x * ring[5]))));
@@ -60,7 +68,7 @@ class TubeRings {
   };
 
  private:
-  void add(const Tube& tube);
+  void add(const Tube& tube, std::size_t index);
   void divide(const Panel& whole, double middle_rad, double low, double high, int depth);
   double edge_error_of(const Panel& panel, const Reach& reach) const;
   bool is_seen(const Reach& reach) const;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/tolerance.h"
 #include "base/units.h"
@@ -12,6 +11,7 @@
 #include "sim/tube_kernel.h"
 #include "sim/tube_map.h"
 #include "sim/tube_rings.h"
+#include "sim/tube_setup.h"
 #include "sim/tube_sum.h"
 
 namespace catoptric::sim {
@@ -45,24 +45,6 @@ double least_weight(double power_w, const TubesOptions& options) {
   return std::clamp(weight, rounding, 0.01);
 }
 
-/// The radii asked for, each once and ascending: grids have many alike.
-struct FieldRadii {
-  std::vector<double> distinct_mm;
-  std::vector<std::size_t> places;  ///< of each radius asked for
-
-  explicit FieldRadii(std::span<const double> radii_mm) : places(radii_mm.size()) {
-    std::vector<std::size_t> order(radii_mm.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    if (!std::is_sorted(radii_mm.begin(), radii_mm.end()))
-      std::sort(order.begin(), order.end(),
-                [&](std::size_t a, std::size_t b) { return radii_mm[a] < radii_mm[b]; });
-    for (const std::size_t i : order) {
-      if (distinct_mm.empty() || radii_mm[i] != distinct_mm.back()) distinct_mm.push_back(radii_mm[i]);
-      places[i] = distinct_mm.size() - 1;
-    }
-  }
-};
-
 constexpr double rays_share = 0.7, interpolation_share = 0.2;
 
 /// The smoothed field by rings, computed at few radii and interpolated between them.
@@ -79,26 +61,39 @@ RadialValues smoothed(const TubeMap& map, double power_w, double h, std::span<co
 
 }  // namespace
 
+TubeTracer tracer_for(const PointSource& source, const Profile& profile, const Material& mirror,
+                      const FieldPlane& plane, const TubesOptions& options) {
+  check(source, profile, mirror, options);
+  return {profile,
+          source.position_mm().z(),
+          plane,
+          mirror,
+          {options.most_interactions, least_weight(source.power_w(), options)}};
+}
+
+TubeMap map_for(const TubeTracer& tracer, const PointSource& source, const Profile& profile,
+                const FieldRadii& radii, const TubesOptions& options) {
+  // Of radius 0 alone no width can be taken.
+  const double r_max =
+      std::max(radii.distinct_mm.back(), Tolerance::for_scale(profile.diagonal_mm()).lift_mm);
+  // Rays may use most of the tolerance; rings and interpolation are cheap and get the rest.
+  return make_tubes(
+      tracer, emission_breaks(profile, source.position_mm().z()), source.power_w(),
+      {r_max, options.kernel_radius_mm, rays_share * options.tolerance_w_per_mm2, options.most_rays});
+}
+
 TubesField tubes_field(const PointSource& source, const Profile& profile, const Material& mirror,
                        const FieldPlane& plane, std::span<const double> radii_mm,
                        const TubesOptions& options) {
-  check(source, profile, mirror, options);
+  const TubeTracer tracer = tracer_for(source, profile, mirror, plane, options);
   TubesField field;
   field.irradiance.assign(radii_mm.size(), 0.0);
   if (radii_mm.empty() || source.power_w() <= 0) return field;
 
   const FieldRadii radii(radii_mm);
   const double power_w = source.power_w(), h = options.kernel_radius_mm;
-  const double source_z = source.position_mm().z();
-  const TubeTracer tracer(profile, source_z, plane, mirror,
-                          {options.most_interactions, least_weight(power_w, options)});
-  // Of radius 0 alone no width can be taken.
-  const double r_max =
-      std::max(radii.distinct_mm.back(), Tolerance::for_scale(profile.diagonal_mm()).lift_mm);
-  // Rays may use most of the tolerance; rings and interpolation are cheap and get the rest.
   const double tolerance = options.tolerance_w_per_mm2;
-  const TubeMap map = make_tubes(tracer, emission_breaks(profile, source_z), power_w,
-                                 {r_max, h, rays_share * tolerance, options.most_rays});
+  const TubeMap map = map_for(tracer, source, profile, radii, options);
   field.error_w_per_mm2 = map.error_w_per_mm2;
   field.rays = map.rays;
   field.landed_w = map.landed_w;
