@@ -200,8 +200,9 @@ RayJets RayDerivative::trace(double theta_rad) const {
     ray.lines.push_back(line);
     const auto hit = section_.first_hit(
         {line.origin[0].v, line.origin[1].v, line.direction[0].v, line.direction[1].v}, lift_mm_);
-    if (!hit || static_cast<int>(ray.hits.size()) == most_interactions_) return ray;
+    if (!hit) return ray;
     ray.hits.push_back(*hit);
+    if (static_cast<int>(ray.hits.size()) > most_interactions_) return ray;
     line = reflect(line, *hit);
   }
 }

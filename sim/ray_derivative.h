@@ -20,7 +20,8 @@ struct Jet {
   Row x{}, tx{};
 };
 
-/// A ray's meetings with the mirror and its line before each of them, the last one without a meeting.
+/// A ray's meetings with the mirror and its line before each of them; the last line has none unless the most
+/// interactions are exceeded.
 struct RayJets {
   struct Line {
     std::array<Jet, 2> origin, direction;

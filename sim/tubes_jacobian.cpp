@@ -15,6 +15,10 @@
 namespace catoptric::sim {
 namespace {
 
+/// A tube that is off by this share of the kernel radius was left so because it holds no light to speak of;
+/// what its quintic would do when the mirror moves means nothing.
+constexpr double crude = 1e-2;
+
 /// Where a branch ends: its last ray, towards which side no more of it comes, and the power per radian there.
 struct BranchEnd {
   double theta_rad;
@@ -51,9 +55,11 @@ std::vector<BranchEnd> branch_ends(const std::vector<Tube>& tubes, double power_
 }
 
 /// How an edge moves, by the rays on both of its sides: the first meeting that only one of them has, or that
-/// they have with different parts of the mirror, passes the edge. Nothing where they meet the same parts.
+/// they have with different parts of the mirror, passes the edge. Zero where the branch goes on past a sliver
+/// of other paths; nothing where only the landing ends.
 std::optional<Jet::Row> edge_motion(const RayDerivative& tracer, const BranchEnd& end) {
   const RayJets inside = tracer.trace(end.theta_rad);
+  bool goes_on = false;
   for (double gap = 4e-14; gap < 1e-2; gap *= 4) {
     const RayJets outside = tracer.trace(end.theta_rad + end.outwards * gap);
     std::size_t k = 0;
@@ -63,7 +69,10 @@ std::optional<Jet::Row> edge_motion(const RayDerivative& tracer, const BranchEnd
              std::abs(a.distance_mm - b.distance_mm) < 1e-2 * a.distance_mm;
     };
     while (k < both && same(inside.hits[k], outside.hits[k])) ++k;
-    if (k == inside.hits.size() && k == outside.hits.size()) continue;
+    if (k == inside.hits.size() && k == outside.hits.size()) {
+      goes_on = tracer.landings(outside).size() == tracer.landings(inside).size();
+      continue;
+    }
     // The nearer of the two is there only for its own ray; the other one passes it.
     const bool by_outside =
         k == inside.hits.size() ||
@@ -71,6 +80,7 @@ std::optional<Jet::Row> edge_motion(const RayDerivative& tracer, const BranchEnd
     return by_outside ? tracer.edge_moves(outside.lines[k], outside.hits[k])
                       : tracer.edge_moves(inside.lines[k], inside.hits[k]);
   }
+  if (goes_on) return Jet::Row{};
   return std::nullopt;
 }
 
@@ -164,7 +174,7 @@ TubesJacobian tubes_jacobian(const PointSource& source, const Profile& profile, 
     for (std::size_t group = 0; group < motions.size(); ++group) {
       Jet::Row sum{};
       for (std::size_t t = 0; t < moments.size(); ++t) {
-        if (moments[t][0] == 0 && moments[t][2] == 0) continue;
+        if (!(map.tubes[t].off_mm < crude * h)) continue;
         for (std::size_t k = 0; k < 6; ++k)
           for (std::size_t i = 0; i < variables_at_once; ++i)
             sum[i] += moments[t][k] * motions[group][t][k][i];

@@ -3,6 +3,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "base/units.h"
 #include "sim/tube_kernel.h"
@@ -262,6 +263,40 @@ TEST_CASE("the error bound holds against a hundred times finer tubes", "[tubes]"
       CHECK(worst <= field.error_w_per_mm2 + fine.error_w_per_mm2);
     }
   }
+}
+
+TEST_CASE("the error bound holds on random generatrices, interpolated between radii", "[tubes]") {
+  std::mt19937_64 engine(20260814);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  const std::vector<double> radii = steps(0, 70, 300);
+  int judged = 0;
+  double nearest = 0;  // of the true error to its bound
+  for (int i = 0; i < 40; ++i) {
+    std::vector<ControlPoint> points{{0, uniform(90, 110), 1}};
+    const int more = 2 + i % 3;
+    for (int k = 1; k <= more; ++k)
+      points.push_back({100.0 * k / more + uniform(-15, 15),
+                        100 - 50.0 * k * k / more / more + uniform(-15, 15), uniform(0.4, 2.5)});
+    const Profile profile = Profile::bezier(points);
+    const double h = i % 2 == 0 ? 5 : 1.5;
+    for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+      const TubesField field = tubes_field(focus, profile, {}, ground, radii, smooth(h, tolerance));
+      const TubesField fine = tubes_field(focus, profile, {}, ground, radii, smooth(h, tolerance / 100));
+      double worst = 0;
+      for (std::size_t k = 0; k < radii.size(); ++k)
+        worst = std::max(worst, std::abs(field.irradiance[k] - fine.irradiance[k]));
+      INFO("mirror " << i << ", tolerance " << tolerance << ", rays " << field.rays << ", error "
+                     << to_w_per_m2(worst) << ", bound " << to_w_per_m2(field.error_w_per_mm2));
+      CHECK(worst <= field.error_w_per_mm2 + fine.error_w_per_mm2);
+      CHECK(field.error_w_per_mm2 < 3 * from_w_per_m2(tolerance));
+      judged += fine.error_w_per_mm2 < 0.1 * field.error_w_per_mm2;
+      nearest = std::max(nearest, worst / field.error_w_per_mm2);
+    }
+  }
+  CHECK(judged > 100);    // the finer run is fine enough to judge
+  CHECK(nearest > 0.01);  // and the bound is not an idle one
 }
 
 TEST_CASE("light through the mirror counts, and light that comes from below does not", "[tubes]") {
