@@ -92,7 +92,6 @@ TubesField tubes_field(const PointSource& source, const Profile& profile, const 
 
   const FieldRadii radii(radii_mm);
   const double power_w = source.power_w(), h = options.kernel_radius_mm;
-  const double tolerance = options.tolerance_w_per_mm2;
   const TubeMap map = map_for(tracer, source, profile, radii, options);
   field.error_w_per_mm2 = map.error_w_per_mm2;
   field.rays = map.rays;
@@ -101,12 +100,12 @@ TubesField tubes_field(const PointSource& source, const Profile& profile, const 
 
   std::vector<double> values(radii.distinct_mm.size(), 0.0);
   if (h > 0) {
-    RadialValues smooth = smoothed(map, power_w, h, radii.distinct_mm, tolerance);
+    RadialValues smooth = smoothed(map, power_w, h, radii.distinct_mm, options.tolerance_w_per_mm2);
     field.error_w_per_mm2 += smooth.error[0];
     values = std::move(smooth.values);
   } else {
-    const PointwiseSum sum = add_pointwise(map, tracer, power_w, tolerance, options.most_rays - map.rays,
-                                           radii.distinct_mm, values);
+    const PointwiseSum sum = add_pointwise(map, tracer, power_w, options.pointwise_tolerance_w_per_mm2,
+                                           options.most_rays - map.rays, radii.distinct_mm, values);
     field.error_w_per_mm2 = sum.error_w_per_mm2;
     field.rays += sum.rays;
   }

@@ -15,9 +15,10 @@ namespace catoptric::sim {
 
 struct TubesOptions {
   double kernel_radius_mm = 0;         ///< of the Silverman kernel; 0: the pointwise field
-  double tolerance_w_per_mm2 = 1e-12;  ///< 1e-6 W/m^2; pointwise 0 has every branch polished by rays
+  double tolerance_w_per_mm2 = 1e-12;  ///< of the smoothed field: 1e-6 W/m^2
   int most_rays = 100'000;
   int most_interactions = 1000;
+  double pointwise_tolerance_w_per_mm2 = 0;  ///< of the pointwise field; 0 has every branch polished by rays
 };
 
 /// The reflected (and transmitted) light by deterministic ray tubes.

@@ -49,7 +49,7 @@ void pointwise(benchmark::State& state, double w1, double x2_mm) {
   const Profile profile = mirror(w1, x2_mm);
   const std::vector<double> radii = radii_of(state);
   sim::TubesOptions options;
-  options.tolerance_w_per_mm2 = from_w_per_m2(5e-7);
+  options.pointwise_tolerance_w_per_mm2 = from_w_per_m2(5e-7);
   sim::TubesField field;
   for (auto _ : state) {
     field = sim::tubes_field(source, profile, {}, {0, true}, radii, options);

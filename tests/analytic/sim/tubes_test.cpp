@@ -35,13 +35,6 @@ double paraboloid_irradiance(double r) {
   return focus.power_w() / (4 * pi * distance * distance);
 }
 
-/// Pointwise, every branch polished by rays of its own.
-TubesOptions polished() {
-  TubesOptions options;
-  options.tolerance_w_per_mm2 = 0;
-  return options;
-}
-
 TubesOptions smooth(double h, double tolerance_w_per_m2 = 1e-6) {
   TubesOptions options;
   options.kernel_radius_mm = h;
@@ -111,7 +104,7 @@ TEST_CASE("tubes reach the paraboloid's closed form, centre and rim included", "
   std::vector<double> radii = steps(0, 99.9, 40);
   for (const double r : {1e-9, 1e-3, 100 * (1 - 1e-6), 100 * (1 - 1e-9), 100 * (1 + 1e-9), 150.0})
     radii.push_back(r);
-  const TubesField field = tubes_field(focus, mirror.profile(), {}, ground, radii, polished());
+  const TubesField field = tubes_field(focus, mirror.profile(), {}, ground, radii, {});
   for (std::size_t i = 0; i < radii.size(); ++i) {
     INFO("r " << radii[i]);
     CHECK(field.irradiance[i] == Approx(paraboloid_irradiance(radii[i])).epsilon(1e-11).margin(0));
@@ -125,7 +118,9 @@ TEST_CASE("tubes reach the paraboloid's closed form, centre and rim included", "
 TEST_CASE("a tolerance spares the rays that polish", "[tubes]") {
   const auto mirror = test::paraboloid(a_mm);
   const std::vector<double> radii = steps(0, 110, 1024);
-  const TubesField field = tubes_field(focus, mirror.profile(), {}, ground, radii, smooth(0, 5e-7));
+  TubesOptions options;
+  options.pointwise_tolerance_w_per_mm2 = from_w_per_m2(5e-7);
+  const TubesField field = tubes_field(focus, mirror.profile(), {}, ground, radii, options);
   CHECK(field.rays <= 40);
   CHECK(field.error_w_per_mm2 <= from_w_per_m2(5e-7));
   for (std::size_t i = 0; i < radii.size(); ++i) {
@@ -156,7 +151,7 @@ TEST_CASE("a sphere about the source sends each ray back: reflected is direct", 
     const double d = std::hypot(r, a_mm);
     return focus.power_w() / (4 * pi) * a_mm / (d * d * d);
   };
-  const TubesField field = tubes_field(focus, mirror.profile(), {0.8, 0}, ground, radii, polished());
+  const TubesField field = tubes_field(focus, mirror.profile(), {0.8, 0}, ground, radii, {});
   for (std::size_t i = 0; i < radii.size(); ++i) {
     INFO("r " << radii[i]);
     CHECK(field.irradiance[i] == Approx(0.8 * direct(radii[i])).epsilon(1e-11));
@@ -200,7 +195,7 @@ TEST_CASE("a cone's light comes from the mirrored source, a cylinder's too", "[t
       return sum;
     };
     const std::vector<double> radii = steps(0.5, 200, 50);
-    const TubesField field = tubes_field(focus, mirror.profile(), {}, ground, radii, polished());
+    const TubesField field = tubes_field(focus, mirror.profile(), {}, ground, radii, {});
     for (std::size_t i = 0; i < radii.size(); ++i) {
       INFO("cone from " << c.r_low << " to " << c.r_high << ", r " << radii[i]);
       CHECK(field.irradiance[i] == Approx(truth(radii[i])).epsilon(1e-10).margin(1e-20));
@@ -304,13 +299,11 @@ TEST_CASE("light through the mirror counts, and light that comes from below does
   // passes the source and never meets the dome again.
   const auto mirror = test::half_ellipsoid(a_mm, 50, 50);
   const std::vector<double> radii{0, 40};
-  const TubesField below = tubes_field(focus, mirror.profile(), {0.25, 0.75}, ground, radii, polished());
+  const TubesField below = tubes_field(focus, mirror.profile(), {0.25, 0.75}, ground, radii, {});
   CHECK(below.irradiance[0] == Approx(0.25 * focus.power_w() / (4 * pi * 2500)).epsilon(1e-12));
-  const TubesField above =
-      tubes_field(focus, mirror.profile(), {0.25, 0.75}, {150, false}, radii, polished());
+  const TubesField above = tubes_field(focus, mirror.profile(), {0.25, 0.75}, {150, false}, radii, {});
   CHECK(above.irradiance[0] == Approx(0.75 * focus.power_w() / (4 * pi * 10000)).epsilon(1e-12));
-  CHECK(tubes_field(focus, mirror.profile(), {0.25, 0.75}, {150, true}, radii, polished()).irradiance[0] ==
-        0);
+  CHECK(tubes_field(focus, mirror.profile(), {0.25, 0.75}, {150, true}, radii, {}).irradiance[0] == 0);
 }
 
 TEST_CASE("the rung says in words what it cannot light", "[tubes]") {
