@@ -10,8 +10,8 @@ namespace catoptric::sim {
 /// The smoothed field of ray tubes with its derivatives by the design vector.
 struct TubesJacobian {
   TubesField field;
-  Eigen::MatrixXd by_variable;  ///< W/mm^2 per mm or per unit of weight; a row for each radius asked for,
-                                ///< columns r_0, z_0, w_0, r_1, ... as in paper eq. 6
+  Eigen::MatrixXd by_variable;   ///< W/mm^2 per mm or per unit of weight; a row for each radius asked for,
+                                 ///< columns r_0, z_0, w_0, r_1, ... as in paper eq. 6
   double unmoved_w_per_mm2 = 0;  ///< irradiance at edges whose motion is left out (a mirror that passes the
                                  ///< near field's plane); 0: none
 };
