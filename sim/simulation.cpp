@@ -6,18 +6,41 @@
 
 #include "base/profile.h"
 #include "base/tolerance.h"
+#include "sim/clear_view.h"
 
 namespace catoptric::sim {
 
+namespace {
+
+/// A probe of a mirror that stands nowhere.
+class OpenSpace final : public Probe {
+ public:
+  std::optional<Hit> first_hit(const Ray&, double) override { return std::nullopt; }
+  std::vector<Hit> all_hits(const Ray&, double) override { return {}; }
+};
+
+}  // namespace
+
 std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample> samples) {
   std::vector<double> direct(samples.size());
-  const double lift_mm = Tolerance::for_scale(scene.reflector.profile().diagonal_mm()).lift_mm;
+  const Profile& profile = scene.reflector.profile();
+  const double lift_mm = Tolerance::for_scale(profile.diagonal_mm()).lift_mm;
+  const auto shine = [&](std::size_t i, Probe& probe) {
+    return scene.source.direct_w_per_mm2(samples[i].point_mm, samples[i].normal, probe, lift_mm);
+  };
+  // Only a point source shines from its position alone.
+  if (dynamic_cast<const PointSource*>(&scene.source) != nullptr &&
+      is_view_clear(profile, scene.source.position_mm(), samples)) {
+    OpenSpace open;
+    for (std::size_t i = 0; i < samples.size(); ++i) direct[i] = shine(i, open);
+    return direct;
+  }
   // One probe a chunk: engines may keep caches in it, and those must not depend on the number of threads.
   constexpr std::size_t chunk = 64;
   tbb::parallel_for(std::size_t{0}, (samples.size() + chunk - 1) / chunk, [&](std::size_t part) {
     const auto probe = scene.reflector.probe();
     for (std::size_t i = part * chunk; i < std::min(samples.size(), (part + 1) * chunk); ++i)
-      direct[i] = scene.source.direct_w_per_mm2(samples[i].point_mm, samples[i].normal, *probe, lift_mm);
+      direct[i] = shine(i, *probe);
   });
   return direct;
 }

@@ -8,15 +8,38 @@
 namespace catoptric::sim {
 
 /// A tube of light: the emission angles between two rays of one path, with their landing radius between as
-/// the cubic through both rays' radii and derivatives.
+/// the quintic through the radii and derivatives of both rays and of a third in the middle.
 struct Tube {
   double first_rad, last_rad;  ///< emission angle
-  double rho[4];               ///< signed landing radius, sum rho[k] t^k over t in [0, 1], mm
-  double end_mm;               ///< at t = 1, the ray's own number
+  double rho[6];               ///< signed landing radius, sum rho[k] x^k over x in [-1, 1], mm
+  double begin_mm, end_mm;     ///< at -1 and 1, the rays' own numbers
+  double off_mm, off_slope;    ///< how far the quintic and its derivative by x may be off, mm
   double weight;
   std::uint64_t path;
-  double at(double t) const { return rho[0] + t * (rho[1] + t * (rho[2] + t * rho[3])); }
-  double slope(double t) const { return rho[1] + t * (2 * rho[2] + t * 3 * rho[3]); }
+  double at(double x) const {
+    return rho[0] + x * (rho[1] + x * (rho[2] + x * (rho[3] + x * (rho[4] + x * rho[5]))));
+  }
+  double slope(double x) const {
+    return rho[1] + x * (2 * rho[2] + x * (3 * rho[3] + x * (4 * rho[4] + x * 5 * rho[5])));
+  }
+  double curve(double x) const { return 2 * rho[2] + x * (6 * rho[3] + x * (12 * rho[4] + x * 20 * rho[5])); }
+  double half_width_rad() const { return 0.5 * (last_rad - first_rad); }
+  double theta_rad(double x) const { return 0.5 * (first_rad + last_rad) + x * half_width_rad(); }
+};
+
+/// Values and derivatives by x of three rays at -1, 0, 1, as the quintic through them.
+struct Hermite {
+  double first, middle, last, d_first, d_middle, d_last;
+  void quintic(double (&c)[6]) const {
+    const double even = 0.5 * (first + last) - middle, turn = 0.5 * (d_last - d_first);
+    const double odd = 0.5 * (last - first) - d_middle, rise = 0.5 * (d_first + d_last) - d_middle;
+    c[0] = middle;
+    c[1] = d_middle;
+    c[2] = 2 * even - 0.5 * turn;
+    c[4] = 0.5 * turn - even;
+    c[5] = 0.5 * rise - 1.5 * odd;
+    c[3] = odd - c[5];
+  }
 };
 
 /// What the tubes are for, which decides where they are refined.
@@ -24,23 +47,24 @@ struct TubeGoal {
   double r_max_mm;             ///< largest radius asked for
   double kernel_radius_mm;     ///< 0: the pointwise field
   double tolerance_w_per_mm2;  ///< of the smoothed field
-  int most_rays;
+  int most_rays;               ///< fewer by up to 13 may be used, since rays come several at a time
 };
 
 /// The tubes between rays from a point on the axis, refined where the error is.
 struct TubeMap {
   std::vector<Tube> tubes;
-  double error_w_per_mm2 = 0;  ///< bound of the smoothed field's error by the tubes' cubics and by what lies
-                               ///< between the last two rays of different paths
+  double error_w_per_mm2 = 0;  ///< bound of the smoothed field's error by the tubes' quintics and by what
+                               ///< lies between the last two rays of different paths
   double landed_w = 0;         ///< power of all landings on the plane, each meeting counted
   double cut_off_w = 0;        ///< power on paths stopped after the most interactions
   int rays = 0;
 };
 
 /// @in    breaks: emission angles between which the first surface met is one smooth piece, from 0 to pi
-/// @error each interval's middle ray tells how far the cubic without it is off; with it the error falls to a
-///        sixteenth, and an eighth is counted. The kernel's steepest slope turns it into irradiance.
-///        Intervals whose rays take different paths count with all their power at the kernel's peak
+/// @error an interval's five rays make two tubes of three; the rays at its quarters tell how far the quintic
+///        of the other three is off. The two tubes are off by a sixty-fourth of it, a sixteenth is counted.
+///        The kernel's steepest slope turns it into irradiance. Between two rays on different paths all
+///        power counts at the kernel's peak
 /// @from  Jacobsen 2001 for the use of ray derivatives; bound by the remainder of Hermite interpolation
 TubeMap make_tubes(const TubeTracer& tracer, const std::vector<double>& breaks, double power_w,
                    const TubeGoal& goal);

@@ -2,43 +2,48 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
 #include "base/units.h"
-#include "sim/tube_kernel.h"
+#include "sim/radial_panels.h"
+#include "sim/sign_changes.h"
 
 namespace catoptric::sim {
 namespace {
 
 /// A stretch of a tube on which the landing radius only rises or only falls.
 struct Stretch {
-  double first, last;  ///< of t
+  double first, last;  ///< of x
   double rho_first, rho_last;
+  double inner() const {
+    return (rho_first < 0) != (rho_last < 0) ? 0 : std::min(std::abs(rho_first), std::abs(rho_last));
+  }
+  double outer() const { return std::max(std::abs(rho_first), std::abs(rho_last)); }
 };
 
 struct Stretches {
-  std::array<Stretch, 3> part;
+  std::array<Stretch, 5> part;
   std::size_t count = 0;
 };
 
 Stretches monotone_stretches(const Tube& tube) {
-  std::array<double, 4> cuts{0, 0, 0, 0};
+  std::array<double, 6> cuts{-1};
   std::size_t count = 1;
-  // Zeros of the slope c + 2 b t + a t^2, by the form of the formula that does not cancel.
-  const double a = 3 * tube.rho[3], b = tube.rho[2], c = tube.rho[1];
-  const double discriminant = b * b - a * c;
-  if (discriminant > 0) {
-    const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-    double first = q / a, second = c / q;
-    if (second < first) std::swap(first, second);
-    for (const double t : {first, second})
-      if (t > 0 && t < 1) cuts[count++] = t;
+  std::array<double, 5> slope;
+  double others = 0;
+  for (std::size_t k = 0; k < 5; ++k) {
+    slope[k] = static_cast<double>(k + 1) * tube.rho[k + 1];
+    if (k > 0) others += std::abs(slope[k]);
+  }
+  if (!(others < std::abs(slope[0]))) {
+    std::array<double, 4> turns;
+    const std::size_t found = sign_changes<4>(slope, turns);
+    for (std::size_t i = 0; i < found; ++i) cuts[count++] = turns[i];
   }
   cuts[count] = 1;
   Stretches stretches;
   for (std::size_t i = 0; i < count; ++i)
-    stretches.part[stretches.count++] = {cuts[i], cuts[i + 1], tube.at(cuts[i]),
+    stretches.part[stretches.count++] = {cuts[i], cuts[i + 1], i == 0 ? tube.begin_mm : tube.at(cuts[i]),
                                          i + 1 == count ? tube.end_mm : tube.at(cuts[i + 1])};
   return stretches;
 }
@@ -47,64 +52,19 @@ Stretches monotone_stretches(const Tube& tube) {
 double place_of(const Tube& tube, const Stretch& stretch, double rho) {
   double low = stretch.first, high = stretch.last;
   const bool rises = stretch.rho_last > stretch.rho_first;
-  double t = low + (high - low) * (rho - stretch.rho_first) / (stretch.rho_last - stretch.rho_first);
+  double x = low + (high - low) * (rho - stretch.rho_first) / (stretch.rho_last - stretch.rho_first);
   // Newton squares what is left: after a step of this size the place is at its rounding.
   const double enough = 1e-9;
   for (int step = 0; step < 60; ++step) {
-    const double off = tube.at(t) - rho;
-    ((off < 0) == rises ? low : high) = t;
-    double next = t - off / tube.slope(t);
+    const double off = tube.at(x) - rho;
+    ((off < 0) == rises ? low : high) = x;
+    double next = x - off / tube.slope(x);
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    const double moved = std::abs(next - t);
-    t = next;
+    const double moved = std::abs(next - x);
+    x = next;
     if (moved <= enough) break;
   }
-  return t;
-}
-
-/// Integral over t in [first, last] of sin(theta) times the ring kernel at radius r.
-template <unsigned points>
-double rule(const Tube& tube, double h, double r, double first, double last) {
-  const double width = tube.last_rad - tube.first_rad;
-  return boost::math::quadrature::gauss<double, points>::integrate(
-      [&](double t) { return std::sin(tube.first_rad + t * width) * tube_kernel_per_mm2(r, tube.at(t), h); },
-      first, last);
-}
-
-/// By the length in kernel radii. Where a cut ends the stretch, the kernel ends like distance^(5/2), for
-/// which n points leave n^-7; elsewhere it is a smooth function of the length, for which they leave
-/// length^(2n).
-double integral(const Tube& tube, double h, double r, double first, double last, double reach, bool cut) {
-  // The emission angle counts too: where light gathers, much of it lands within little length.
-  const double turn = (last - first) * (tube.last_rad - tube.first_rad);
-  const double length = std::max((cut ? 4 : 1) * reach / h, turn);
-  if (length < 0.01) return rule<2>(tube, h, r, first, last);
-  if (length < 0.05) return rule<3>(tube, h, r, first, last);
-  if (length < 0.3) return rule<5>(tube, h, r, first, last);
-  if (length < 1.2) return rule<8>(tube, h, r, first, last);
-  return rule<16>(tube, h, r, first, last);
-}
-
-/// A stretch of one tube seen from one radius: cut where a ring begins or ceases to reach the kernel.
-double seen_from(const Tube& tube, const Stretch& stretch, double h, double r) {
-  const double low = std::min(stretch.rho_first, stretch.rho_last),
-               high = std::max(stretch.rho_first, stretch.rho_last);
-  const std::array<double, 4> ends{-(r + h), -std::abs(r - h), std::abs(r - h), r + h};
-  double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (i == 1 && r > h) continue;  // the hole: rings too small to reach the kernel
-    const double from = std::max(low, ends[i]), to = std::min(high, ends[i + 1]);
-    if (!(from < to)) continue;
-    const double a = from == stretch.rho_first  ? stretch.first
-                     : from == stretch.rho_last ? stretch.last
-                                                : place_of(tube, stretch, from);
-    const double b = to == stretch.rho_first  ? stretch.first
-                     : to == stretch.rho_last ? stretch.last
-                                              : place_of(tube, stretch, to);
-    sum +=
-        integral(tube, h, r, std::min(a, b), std::max(a, b), to - from, from == ends[i] || to == ends[i + 1]);
-  }
-  return sum;
+  return x;
 }
 
 /// A tube that begins or ends with the light along the axis, which lands on the axis: there sin(theta) / rho
@@ -117,9 +77,9 @@ struct AxialEnd {
 };
 
 AxialEnd axial_end(const Tube& tube) {
-  const double width = tube.last_rad - tube.first_rad;
-  for (const AxialEnd& end : {AxialEnd{true, tube.rho[0], tube.slope(0) / width, 0},
-                              AxialEnd{true, tube.end_mm, tube.slope(1) / width, pi}}) {
+  const double half = tube.half_width_rad();
+  for (const AxialEnd& end : {AxialEnd{true, tube.begin_mm, tube.slope(-1) / half, 0},
+                              AxialEnd{true, tube.end_mm, tube.slope(1) / half, pi}}) {
     const double off = end.polar > 0 ? pi - tube.last_rad : tube.first_rad;
     // The outermost ray leaves this near the axis, and lands where a straight continuation says.
     if (off < 2e-14 && std::abs(end.rho) <= 4 * std::abs(end.slope) * off) return end;
@@ -138,26 +98,56 @@ double branch_irradiance(double power_w, double theta, double rho, double slope,
   return power_w / (4 * pi) * std::abs(ratio / slope);
 }
 
+/// What a stretch of a tube gives without more rays, and how far that may be off.
+class TubeIrradiance {
+ public:
+  TubeIrradiance(const Tube& tube, const Stretch& stretch, double power_w, const AxialEnd& axis)
+      : tube_(tube), stretch_(stretch), power_w_(power_w), axis_(axis) {}
+
+  /// Irradiance where the tube lands at `rho`; worst_error grows with it.
+  double at(double rho) {
+    const double x = place_of(tube_, stretch_, rho), half = tube_.half_width_rad();
+    const double slope = tube_.slope(x), theta = tube_.theta_rad(x);
+    const double value = tube_.weight * branch_irradiance(power_w_, theta, rho, slope / half, axis_);
+    const double curve = tube_.curve(x);
+    // The place is off by off_mm / slope, which moves the slope and the sine; the slope itself is off, and so
+    // is the sine over the radius next to the axis, where the tube's error falls with the distance.
+    const double share = (2 * tube_.off_slope + 2 * std::abs(curve / slope) * tube_.off_mm) / std::abs(slope);
+    worst_error_ = std::max(worst_error_, value * share);
+    if (!std::isfinite(value)) worst_error_ = HUGE_VAL;
+    return value;
+  }
+  double worst_error() const { return worst_error_; }
+
+ private:
+  const Tube& tube_;
+  const Stretch& stretch_;
+  double power_w_;
+  const AxialEnd& axis_;
+  double worst_error_ = 0;
+};
+
+/// An irradiance and how far it may be off.
+struct Found {
+  double value, error;
+};
+
 class Polisher {
  public:
   Polisher(const TubeTracer& tracer, double power_w, int most_rays)
       : tracer_(tracer), power_w_(power_w), most_rays_(most_rays) {}
 
   /// The branch that lands at `rho` near `theta`.
-  double irradiance(const Tube& tube, double theta, double rho, PointwiseSum& sum) {
-    if (sum.rays >= most_rays_) {
-      sum.error_w_per_mm2 = HUGE_VAL;  // a branch left out
-      return 0;
-    }
-    const AxialEnd axis = axial_end(tube);
+  Found irradiance(const Tube& tube, const AxialEnd& axis, double theta, double rho) {
+    if (rays_ >= most_rays_) return {0, HUGE_VAL};  // a branch left out
     double before = 0, value = 0;
     // Newton doubles the digits: from the tube's three to all of them in three steps.
     for (int step = 0; step < 5; ++step) {
-      const Landing* landing = trace(tube, theta, sum);
+      const Landing* landing = trace(tube, theta);
       if (landing == nullptr) break;
       before = value;
       value = tube.weight * branch_irradiance(power_w_, theta, rho, landing->slope_mm_per_rad, axis);
-      if (!std::isfinite(value)) return value;
+      if (!std::isfinite(value)) return {value, 0};
       const double move = (rho - landing->rho_mm) / landing->slope_mm_per_rad;
       const bool settled = std::abs(move) <= 1e-15 * theta;  // a few roundings of the angle
       theta = std::clamp(theta + move, tube.first_rad, tube.last_rad);
@@ -165,15 +155,16 @@ class Polisher {
       if (settled || (step > 0 && std::abs(value - before) <= 1e-13 * value)) break;
     }
     // Past the last two steps agreeing to 1e-13 what is left is rounding in the ray's derivative.
-    sum.error_w_per_mm2 = std::max(sum.error_w_per_mm2, std::max(1e-12 * value, std::abs(value - before)));
-    return value;
+    return {value, std::max(1e-12 * value, std::abs(value - before))};
   }
 
+  int rays() const { return rays_; }
+
  private:
-  const Landing* trace(const Tube& tube, double theta, PointwiseSum& sum) {
+  const Landing* trace(const Tube& tube, double theta) {
     landings_.clear();
     tracer_.trace(theta, landings_);
-    ++sum.rays;
+    ++rays_;
     for (const Landing& landing : landings_)
       if (landing.path == tube.path) return &landing;
     return nullptr;
@@ -181,54 +172,102 @@ class Polisher {
 
   const TubeTracer& tracer_;
   double power_w_;
-  int most_rays_;
+  int most_rays_, rays_ = 0;
   std::vector<Landing> landings_;
+};
+
+class PointwiseAdder {
+ public:
+  PointwiseAdder(const TubeTracer& tracer, double power_w, double tolerance, int most_rays,
+                 std::span<const double> radii_mm, std::vector<double>& values)
+      : polisher_(tracer, power_w, most_rays),
+        power_w_(power_w),
+        tolerance_(tolerance),
+        radii_(radii_mm),
+        values_(values),
+        errors_(radii_mm.size(), 0.0) {}
+
+  void add(const Tube& tube) {
+    const AxialEnd axis = axial_end(tube);
+    for (std::size_t k = 0; axis.exists && k < radii_.size() && radii_[k] <= std::abs(axis.rho); ++k)
+      values_[k] += tube.weight * branch_irradiance(power_w_, axis.polar, 0, axis.slope, axis);
+    const Stretches stretches = monotone_stretches(tube);
+    for (std::size_t i = 0; i < stretches.count; ++i) {
+      const Stretch& stretch = stretches.part[i];
+      const auto from = std::lower_bound(radii_.begin(), radii_.end(), stretch.inner()),
+                 to = std::upper_bound(from, radii_.end(), stretch.outer());
+      if (from == to) continue;
+      const auto first = static_cast<std::size_t>(from - radii_.begin()),
+                 end = static_cast<std::size_t>(to - radii_.begin());
+      for (const double side : {1.0, -1.0})
+        if (!add_by_tube(tube, stretch, axis, side, first, end))
+          add_by_rays(tube, stretch, axis, side, first, end);
+    }
+  }
+
+  PointwiseSum sum() const { return {*std::max_element(errors_.begin(), errors_.end()), polisher_.rays()}; }
+
+ private:
+  /// Half-open, so that a radius at a common end belongs to one tube; radius 0 belongs to the side +.
+  static bool lands(const Stretch& stretch, double rho) {
+    return (stretch.rho_first < rho) != (stretch.rho_last < rho) && !(rho == 0 && std::signbit(rho));
+  }
+
+  /// The part of the radii [first, end) at which the stretch lands on that side.
+  void shrink(const Stretch& stretch, double side, std::size_t& first, std::size_t& end) const {
+    while (first < end && !lands(stretch, side * radii_[first])) ++first;
+    while (first < end && !lands(stretch, side * radii_[end - 1])) --end;
+  }
+
+  /// By the tube alone; false where that is not within the tolerance.
+  bool add_by_tube(const Tube& tube, const Stretch& stretch, const AxialEnd& axis, double side,
+                   std::size_t first, std::size_t end) {
+    if (!(tolerance_ > 0)) return false;
+    shrink(stretch, side, first, end);
+    if (first == end) return true;
+    TubeIrradiance irradiance(tube, stretch, power_w_, axis);
+    const RadialFunction function{1, [&](std::span<const double> at, std::span<double> values) {
+                                    for (std::size_t k = 0; k < at.size(); ++k)
+                                      values[k] = irradiance.at(side * at[k]);
+                                  }};
+    // One tube of some may take this share of the tolerance for being interpolated.
+    const double allowed[] = {0.1 * tolerance_};
+    const RadialValues found =
+        interpolate(function, radii_.subspan(first, end - first), {}, HUGE_VAL, allowed);
+    const double error = irradiance.worst_error() + found.error[0];
+    if (!(error <= tolerance_)) return false;
+    for (std::size_t k = first; k < end; ++k) {
+      values_[k] += found.values[k - first];
+      errors_[k] += error;
+    }
+    return true;
+  }
+
+  void add_by_rays(const Tube& tube, const Stretch& stretch, const AxialEnd& axis, double side,
+                   std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k) {
+      const double rho = side * radii_[k];
+      if (!lands(stretch, rho)) continue;
+      const Found found = polisher_.irradiance(tube, axis, tube.theta_rad(place_of(tube, stretch, rho)), rho);
+      values_[k] += found.value;
+      errors_[k] += found.error;
+    }
+  }
+
+  Polisher polisher_;
+  double power_w_, tolerance_;
+  std::span<const double> radii_;
+  std::vector<double>& values_;
+  std::vector<double> errors_;
 };
 
 }  // namespace
 
-void add_smoothed(const Tube& tube, double power_w, double kernel_radius_mm, std::span<const double> radii_mm,
-                  std::vector<double>& values) {
-  const double scale = 0.5 * power_w * tube.weight * (tube.last_rad - tube.first_rad);
-  const Stretches stretches = monotone_stretches(tube);
-  for (std::size_t i = 0; i < stretches.count; ++i) {
-    const Stretch& stretch = stretches.part[i];
-    const double a = stretch.rho_first, b = stretch.rho_last;
-    const double inner = (a < 0) != (b < 0) ? 0 : std::min(std::abs(a), std::abs(b));
-    const double outer = std::max(std::abs(a), std::abs(b));
-    auto place = std::lower_bound(radii_mm.begin(), radii_mm.end(), inner - kernel_radius_mm);
-    for (; place != radii_mm.end() && *place < outer + kernel_radius_mm; ++place)
-      values[static_cast<std::size_t>(place - radii_mm.begin())] +=
-          scale * seen_from(tube, stretch, kernel_radius_mm, *place);
-  }
-}
-
-PointwiseSum add_pointwise(const TubeMap& map, const TubeTracer& tracer, double power_w, int most_rays,
-                           std::span<const double> radii_mm, std::vector<double>& values) {
-  PointwiseSum sum;
-  Polisher polisher(tracer, power_w, most_rays);
-  for (const Tube& tube : map.tubes) {
-    const double width = tube.last_rad - tube.first_rad;
-    const AxialEnd axis = axial_end(tube);
-    for (std::size_t k = 0; axis.exists && k < radii_mm.size() && radii_mm[k] <= std::abs(axis.rho); ++k)
-      values[k] += tube.weight * branch_irradiance(power_w, axis.polar, 0, axis.slope, axis);
-    const Stretches stretches = monotone_stretches(tube);
-    for (std::size_t i = 0; i < stretches.count; ++i) {
-      const Stretch& stretch = stretches.part[i];
-      const double a = stretch.rho_first, b = stretch.rho_last;
-      const double inner = (a < 0) != (b < 0) ? 0 : std::min(std::abs(a), std::abs(b));
-      auto place = std::lower_bound(radii_mm.begin(), radii_mm.end(), inner);
-      for (; place != radii_mm.end() && *place <= std::max(std::abs(a), std::abs(b)); ++place)
-        for (const double rho : {*place, -*place}) {
-          // Half-open, so that a radius at a common end belongs to one tube.
-          if ((a < rho) == (b < rho) || (rho == 0 && std::signbit(rho))) continue;
-          const double theta = tube.first_rad + width * place_of(tube, stretch, rho);
-          values[static_cast<std::size_t>(place - radii_mm.begin())] +=
-              polisher.irradiance(tube, theta, rho, sum);
-        }
-    }
-  }
-  return sum;
+PointwiseSum add_pointwise(const TubeMap& map, const TubeTracer& tracer, double power_w, double tolerance,
+                           int most_rays, std::span<const double> radii_mm, std::vector<double>& values) {
+  PointwiseAdder adder(tracer, power_w, tolerance, most_rays, radii_mm, values);
+  for (const Tube& tube : map.tubes) adder.add(tube);
+  return adder.sum();
 }
 
 }  // namespace catoptric::sim

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/tolerance.h"
 #include "base/units.h"
+#include "sim/radial_panels.h"
 #include "sim/tube_kernel.h"
 #include "sim/tube_map.h"
+#include "sim/tube_rings.h"
+#include "sim/tube_setup.h"
 #include "sim/tube_sum.h"
 
 namespace catoptric::sim {
@@ -43,49 +45,71 @@ double least_weight(double power_w, const TubesOptions& options) {
   return std::clamp(weight, rounding, 0.01);
 }
 
+constexpr double rays_share = 0.7, interpolation_share = 0.2;
+
+/// The smoothed field by rings, computed at few radii and interpolated between them.
+RadialValues smoothed(const TubeMap& map, double power_w, double h, std::span<const double> radii_mm,
+                      double tolerance) {
+  const TubeRings rings(map.tubes, power_w, h, radii_mm, tolerance);
+  const RadialFunction function{
+      1, [&](std::span<const double> at, std::span<double> values) { rings.smoothed(at, values); }};
+  const double allowed[] = {interpolation_share * tolerance};
+  RadialValues field = interpolate(function, radii_mm, rings.breaks_mm(), 2 * h, allowed);
+  field.error[0] += rings.error_w_per_mm2();
+  return field;
+}
+
 }  // namespace
+
+TubeTracer tracer_for(const PointSource& source, const Profile& profile, const Material& mirror,
+                      const FieldPlane& plane, const TubesOptions& options) {
+  check(source, profile, mirror, options);
+  return {profile,
+          source.position_mm().z(),
+          plane,
+          mirror,
+          {options.most_interactions, least_weight(source.power_w(), options)}};
+}
+
+TubeMap map_for(const TubeTracer& tracer, const PointSource& source, const Profile& profile,
+                const FieldRadii& radii, const TubesOptions& options) {
+  // Of radius 0 alone no width can be taken.
+  const double r_max =
+      std::max(radii.distinct_mm.back(), Tolerance::for_scale(profile.diagonal_mm()).lift_mm);
+  // Rays may use most of the tolerance; rings and interpolation are cheap and get the rest.
+  return make_tubes(
+      tracer, emission_breaks(profile, source.position_mm().z()), source.power_w(),
+      {r_max, options.kernel_radius_mm, rays_share * options.tolerance_w_per_mm2, options.most_rays});
+}
 
 TubesField tubes_field(const PointSource& source, const Profile& profile, const Material& mirror,
                        const FieldPlane& plane, std::span<const double> radii_mm,
                        const TubesOptions& options) {
-  check(source, profile, mirror, options);
+  const TubeTracer tracer = tracer_for(source, profile, mirror, plane, options);
   TubesField field;
   field.irradiance.assign(radii_mm.size(), 0.0);
   if (radii_mm.empty() || source.power_w() <= 0) return field;
 
-  std::vector<std::size_t> order(radii_mm.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return radii_mm[a] < radii_mm[b]; });
-  std::vector<double> radii;
-  std::vector<std::size_t> places(radii_mm.size());
-  for (const std::size_t i : order) {  // each radius once: grids have many alike
-    if (radii.empty() || radii_mm[i] != radii.back()) radii.push_back(radii_mm[i]);
-    places[i] = radii.size() - 1;
-  }
-
+  const FieldRadii radii(radii_mm);
   const double power_w = source.power_w(), h = options.kernel_radius_mm;
-  const double source_z = source.position_mm().z();
-  const TubeTracer tracer(profile, source_z, plane, mirror,
-                          {options.most_interactions, least_weight(power_w, options)});
-  // Of radius 0 alone no width can be taken.
-  const double r_max = std::max(radii.back(), Tolerance::for_scale(profile.diagonal_mm()).lift_mm);
-  const TubeMap map = make_tubes(tracer, emission_breaks(profile, source_z), power_w,
-                                 {r_max, h, options.tolerance_w_per_mm2, options.most_rays});
+  const TubeMap map = map_for(tracer, source, profile, radii, options);
   field.error_w_per_mm2 = map.error_w_per_mm2;
   field.rays = map.rays;
   field.landed_w = map.landed_w;
   field.cut_off_w = map.cut_off_w;
 
-  std::vector<double> values(radii.size(), 0.0);
+  std::vector<double> values(radii.distinct_mm.size(), 0.0);
   if (h > 0) {
-    for (const Tube& tube : map.tubes) add_smoothed(tube, power_w, h, radii, values);
+    RadialValues smooth = smoothed(map, power_w, h, radii.distinct_mm, options.tolerance_w_per_mm2);
+    field.error_w_per_mm2 += smooth.error[0];
+    values = std::move(smooth.values);
   } else {
-    const PointwiseSum sum = add_pointwise(map, tracer, power_w, options.most_rays - map.rays, radii, values);
+    const PointwiseSum sum = add_pointwise(map, tracer, power_w, options.pointwise_tolerance_w_per_mm2,
+                                           options.most_rays - map.rays, radii.distinct_mm, values);
     field.error_w_per_mm2 = sum.error_w_per_mm2;
     field.rays += sum.rays;
   }
-  for (std::size_t i = 0; i < places.size(); ++i) field.irradiance[i] = values[places[i]];
+  for (std::size_t i = 0; i < radii.places.size(); ++i) field.irradiance[i] = values[radii.places[i]];
   return field;
 }
 

@@ -18,6 +18,7 @@ struct TubesOptions {
   double tolerance_w_per_mm2 = 1e-12;  ///< of the smoothed field: 1e-6 W/m^2
   int most_rays = 100'000;
   int most_interactions = 1000;
+  double pointwise_tolerance_w_per_mm2 = 0;  ///< of the pointwise field; 0 has every branch polished by rays
 };
 
 /// The reflected (and transmitted) light by deterministic ray tubes.
@@ -35,18 +36,18 @@ struct TubesField {
 ///
 /// Rays of one meridian carry the derivative of their landing radius rho by the emission angle theta through
 /// every bounce. Pointwise the irradiance is the sum over all branches of
-/// power / (4 pi) * sin(theta) / (rho |d rho / d theta|), each branch polished by rays of its own. Smoothed,
-/// it is what the photon rung expects with the same fixed kernel radius: the power of each tube, spread over
-/// its rings, under the Silverman kernel; folds and the axis, where the pointwise field is infinite, are as
-/// exact as the rest.
+/// power / (4 pi) * sin(theta) / (rho |d rho / d theta|), from the tubes where they are within the tolerance,
+/// else polished by rays of its own. Smoothed, it is what the photon rung expects with the same fixed kernel
+/// radius: the power of each tube, spread over its rings, under the Silverman kernel; folds and the axis,
+/// where the pointwise field is infinite, are as exact as the rest. Many radii are interpolated from few.
 /// @in    source on the axis (tubes_objection); radii not negative
 /// @fails InputError for a source off the axis, a bad material, a negative kernel radius, most_rays below 100
-/// @error smoothed: error_w_per_mm2, by the tubes' own middle rays. Pointwise: 1e-12 of the value or the
-/// change
-///        by the last polishing, whichever is larger
-/// @cost  about 0.4 us a ray and bounce; 50 rays for 1e-6 W/m^2 on the paraboloid, 130 to 260 on the paper's
-///        starts with their folds; then some microseconds for each smoothed radius. A cavity whose light
-///        bounces many times may need more rays than allowed: the error then says so
+/// @error error_w_per_mm2: by rays that the tubes do not use, by the rings' rule, by the interpolation's
+///        coefficients; polished pointwise 1e-12 of the value or the change by the last polishing
+/// @cost  about 0.4 us a ray and bounce; 28 rays for 1e-6 W/m^2 on the paraboloid, 70 to 160 on the paper's
+///        starts with their folds; then 20 to 150 smoothed radii of 0.5 to 2 us each, however many are asked
+///        for. A cavity whose light bounces many times may need more rays than allowed: the error then says
+///        so
 /// @from  paper eq. 12 for the paraboloid; flux tubes: Burkhard & Shealy 1981
 TubesField tubes_field(const PointSource& source, const Profile& profile, const Material& mirror,
                        const FieldPlane& plane, std::span<const double> radii_mm,

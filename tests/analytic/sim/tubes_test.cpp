@@ -3,6 +3,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "base/units.h"
 #include "sim/tube_kernel.h"
@@ -84,7 +85,17 @@ TEST_CASE("the kernel's mean over a ring is that of a fine sum", "[tubes]") {
             0.0, last, 8, 1e-14);
         INFO("h " << h << ", r " << r << ", ring " << ring);
         // Near the edge r - ring itself is known to a rounding of 1e4: 1e-12 of h.
-        CHECK(tube_kernel_per_mm2(r, ring, h) * pi * h * h == Approx(sum / pi).epsilon(1e-11).margin(1e-12));
+        const RingKernel kernel = ring_kernel(r / h, ring / h);
+        CHECK(3 * kernel.value == Approx(sum / pi).epsilon(1e-11).margin(1e-12));
+        // Its derivative by the ring's radius, by Richardson's differences, away from the kernel's edges.
+        const double at = r / h, q = ring / h, step = 1e-3;
+        if (std::min({q, std::abs(q - at - 1), std::abs(q - std::abs(at - 1))}) < 2 * step || q > 100)
+          continue;
+        const auto difference = [&](double d) {
+          return (ring_kernel(at, q + d).value - ring_kernel(at, q - d).value) / (2 * d);
+        };
+        CHECK(kernel.slope ==
+              Approx((4 * difference(step / 2) - difference(step)) / 3).epsilon(1e-7).margin(1e-9));
       }
 }
 
@@ -102,6 +113,20 @@ TEST_CASE("tubes reach the paraboloid's closed form, centre and rim included", "
   CHECK(field.rays < 300);
   CHECK(field.landed_w == Approx(focus.power_w() / 2).epsilon(1e-12));
   CHECK(field.cut_off_w == 0);
+}
+
+TEST_CASE("a tolerance spares the rays that polish", "[tubes]") {
+  const auto mirror = test::paraboloid(a_mm);
+  const std::vector<double> radii = steps(0, 110, 1024);
+  TubesOptions options;
+  options.pointwise_tolerance_w_per_mm2 = from_w_per_m2(5e-7);
+  const TubesField field = tubes_field(focus, mirror.profile(), {}, ground, radii, options);
+  CHECK(field.rays <= 40);
+  CHECK(field.error_w_per_mm2 <= from_w_per_m2(5e-7));
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    INFO("r " << radii[i]);
+    CHECK(std::abs(field.irradiance[i] - paraboloid_irradiance(radii[i])) <= field.error_w_per_mm2);
+  }
 }
 
 TEST_CASE("tubes reach the paraboloid smoothed, over its sharp rim", "[tubes]") {
@@ -233,6 +258,40 @@ TEST_CASE("the error bound holds against a hundred times finer tubes", "[tubes]"
       CHECK(worst <= field.error_w_per_mm2 + fine.error_w_per_mm2);
     }
   }
+}
+
+TEST_CASE("the error bound holds on random generatrices, interpolated between radii", "[tubes]") {
+  std::mt19937_64 engine(20260814);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  const std::vector<double> radii = steps(0, 70, 300);
+  int judged = 0;
+  double nearest = 0;  // of the true error to its bound
+  for (int i = 0; i < 40; ++i) {
+    std::vector<ControlPoint> points{{0, uniform(90, 110), 1}};
+    const int more = 2 + i % 3;
+    for (int k = 1; k <= more; ++k)
+      points.push_back({100.0 * k / more + uniform(-15, 15),
+                        100 - 50.0 * k * k / more / more + uniform(-15, 15), uniform(0.4, 2.5)});
+    const Profile profile = Profile::bezier(points);
+    const double h = i % 2 == 0 ? 5 : 1.5;
+    for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+      const TubesField field = tubes_field(focus, profile, {}, ground, radii, smooth(h, tolerance));
+      const TubesField fine = tubes_field(focus, profile, {}, ground, radii, smooth(h, tolerance / 100));
+      double worst = 0;
+      for (std::size_t k = 0; k < radii.size(); ++k)
+        worst = std::max(worst, std::abs(field.irradiance[k] - fine.irradiance[k]));
+      INFO("mirror " << i << ", tolerance " << tolerance << ", rays " << field.rays << ", error "
+                     << to_w_per_m2(worst) << ", bound " << to_w_per_m2(field.error_w_per_mm2));
+      CHECK(worst <= field.error_w_per_mm2 + fine.error_w_per_mm2);
+      CHECK(field.error_w_per_mm2 < 3 * from_w_per_m2(tolerance));
+      judged += fine.error_w_per_mm2 < 0.1 * field.error_w_per_mm2;
+      nearest = std::max(nearest, worst / field.error_w_per_mm2);
+    }
+  }
+  CHECK(judged > 100);    // the finer run is fine enough to judge
+  CHECK(nearest > 0.01);  // and the bound is not an idle one
 }
 
 TEST_CASE("light through the mirror counts, and light that comes from below does not", "[tubes]") {
