@@ -96,11 +96,11 @@ class PhotonStages {
     constexpr double photons_of_the_narrowest = 4;
     const double widest = widest_kernel_radius_mm(scene_.near_field);
     const double narrowest = 2 * widest * std::sqrt(photons_of_the_narrowest / static_cast<double>(photons));
-    // More photons want a narrower kernel: the widest that can be best is the best of the stage before.
-    options_.widest_radius_mm =
-        field_.stages.empty() ? widest : std::min(widest, root_two * choice_radius_mm_);
+    // More photons want a narrower kernel than the stage before; wider ones show how bias falls.
+    constexpr double wider = 2.8284271247461903;  // three levels
+    options_.widest_radius_mm = field_.stages.empty() ? widest : std::min(widest, wider * choice_radius_mm_);
     const double steps = std::ceil(2 * std::log2(options_.widest_radius_mm / narrowest));
-    options_.levels = static_cast<std::size_t>(std::clamp(steps, 4.0, field_.stages.empty() ? 12.0 : 8.0));
+    options_.levels = static_cast<std::size_t>(std::clamp(steps, 4.0, field_.stages.empty() ? 12.0 : 9.0));
     ladder_ = look_with_ladder(scene_, probes_, options_);
     choice_ = best_choice(ladder_);
     choice_radius_mm_ = ladder_.levels[choice_.level].kernel_radius_mm;
@@ -188,7 +188,6 @@ class PhotonStages {
         field_.spent_photons, field_.error95_rel, request_.relative);
   }
 
-  static constexpr double root_two = 1.4142135623730951;
   const Scene& scene_;
   std::span<const FieldSample> samples_;
   const AccuracyRequest& request_;

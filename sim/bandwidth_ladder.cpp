@@ -52,6 +52,11 @@ void look_at_rings(const Scene& scene, std::span<const FieldSample> samples, con
   rings.photons = photons;
   rings.replicates = 1;
   RingPhotons set(scene, rings);
+  // Narrower than its bins a store shows no change, which would read as convergence.
+  while (ladder.levels.size() > 2 &&
+         0.5 * ladder.levels.back().kernel_radius_mm * ladder.levels.back().kernel_radius_mm <
+             set.least_bandwidth_mm2())
+    ladder.levels.pop_back();
   add(ladder, set.energy(), set.counts(), 1.0 / static_cast<double>(options.sets));
   const std::vector<double> radii = ring_radii_mm(scene.near_field, samples);
   for (LadderLevel& level : ladder.levels) {

@@ -26,9 +26,10 @@ const SetFields& fields_of(const LadderLevel& level, int order);
 ///
 /// Noise comes from the spread of the sets. Its mean square over the samples is known as well as the number
 /// of independent kernels allows, so the 95 % bound is that of an F distribution. Bias is the sum of what
-/// each further narrowing changes, as far as the changes stand out of their own noise; from there on it is
-/// continued as the geometric series that the last changes make (a quarter or half a step for smooth fields,
-/// more at jumps). Where no change stands out, the change that noise could hide is taken.
+/// each further narrowing changes, as far as the changes stand out of their own noise; from there on they are
+/// continued as the geometric series that the last ones make (a quarter or half a step for smooth fields,
+/// more at jumps). Where not even the widest kernel shows a change, that is taken which noise could hide, and
+/// the field is taken for smooth.
 /// @in    two levels and two sets at least
 /// @from  Lepski 1991 for the comparison of bandwidths
 LadderChoice best_choice(const BandwidthLadder& ladder);

@@ -16,7 +16,7 @@ inline double ring_share(double ring_mm, double radius_mm) {
 }
 
 /// The Silverman kernel's mean over a ring about the axis, and its derivative by the ring's radius.
-struct RingKernel {
+struct RingMean {
   double value, slope;
 };
 
@@ -31,7 +31,7 @@ struct RingKernel {
 /// @error relative 1e-12; next to the kernel's edge, whose place is known to a rounding, absolute 1e-15
 /// @cost  one division, one square root; no branches, so that loops over it are done in vector lanes
 /// @from  Silverman 1986 eq. 4.5; the integral by hand, its series economized (Chebyshev) over [0, 1/2]
-__attribute__((always_inline)) inline RingKernel ring_kernel(double at, double ring) {
+__attribute__((always_inline)) inline RingMean kernel_ring_mean(double at, double ring) {
   constexpr double least_b = 1e-200;  // keeps 0/0 out; b^2 is nothing then
   constexpr double series[] = {0.2666666666666473,     0.019047619058543425,   0.004761903744479952,
                                0.0018037887582483278,  0.0008491549347287004,  0.00046645497670983783,

@@ -59,7 +59,8 @@ __attribute__((always_inline)) inline void place_nodes(const Panel& panel, doubl
 
 /// A block as seen from one radius, in kernel radii, added lane by lane.
 __attribute__((always_inline)) inline void add_block(const Block& block, double at, double* sums) {
-  for (std::size_t i = 0; i < lanes; ++i) sums[i] += block.power[i] * ring_kernel(at, block.ring[i]).value;
+  for (std::size_t i = 0; i < lanes; ++i)
+    sums[i] += block.power[i] * kernel_ring_mean(at, block.ring[i]).value;
 }
 
 /// Where a panel passes `ring`, which lies between its ends.
@@ -126,7 +127,7 @@ void add_moments(const Panel& panel, double low, double high, double at, std::ar
   place_nodes(panel, low, high, nodes);
   double answer[lanes], x[lanes];
   for (std::size_t i = 0; i < lanes; ++i) {
-    answer[i] = panel.sign * nodes.power[i] * ring_kernel(at, nodes.ring[i]).slope;
+    answer[i] = panel.sign * nodes.power[i] * kernel_ring_mean(at, nodes.ring[i]).slope;
     x[i] = panel.centre + panel.half * (0.5 * (low + high) + 0.5 * (high - low) * gauss_x[i]);
   }
   for (double& moment : moments) {

@@ -180,7 +180,7 @@ TubesJacobian tubes_jacobian(const PointSource& source, const Profile& profile, 
             sum[i] += moments[t][k] * motions[group][t][k][i];
       }
       for (std::size_t e = 0; e < ends.size(); ++e) {
-        const double kernel = ring_kernel(at / h, std::abs(ends[e].rho_mm) / h).value;
+        const double kernel = kernel_ring_mean(at / h, std::abs(ends[e].rho_mm) / h).value;
         if (kernel == 0) continue;
         const double brightness = ends[e].outwards * ends[e].watts_per_rad * kernel_peak_per_mm2(h) * kernel;
         for (std::size_t i = 0; i < variables_at_once; ++i) sum[i] += brightness * edges[group][e][i];

@@ -102,8 +102,11 @@ ModelSpec model(const Settings& settings, double unit_mm) {
   ModelSpec spec{};
   const std::string rung = *settings.text("model.rung");
   spec.rung = sim::parse_rung(rung);
-  spec.engine = settings.text("model.engine") == "occt" ? Engine::occt : Engine::meridian;
-  spec.engine_asked_for = settings.text("model.engine") != "auto";
+  const std::string engine = *settings.text("model.engine");
+  spec.engine = engine == "occt" ? Engine::occt : engine == "mesh" ? Engine::mesh : Engine::meridian;
+  spec.mesh.chord_error = *settings.number("model.chord_error");
+  spec.mesh.newton_tolerance = *settings.number("model.newton_tolerance");
+  spec.engine_asked_for = engine != "auto";
   spec.photons.photons = static_cast<std::uint64_t>(*settings.integer("model.photons"));
   spec.photons.sampler =
       settings.text("model.sampler") == "sobol" ? sim::Sampler::sobol : sim::Sampler::random;
@@ -236,7 +239,9 @@ cad::ExportOptions export_options(const Settings& settings, double unit_mm) {
 
 }  // namespace
 
-std::string_view name(Engine engine) { return engine == Engine::occt ? "occt" : "meridian"; }
+std::string_view name(Engine engine) {
+  return engine == Engine::occt ? "occt" : engine == Engine::mesh ? "mesh" : "meridian";
+}
 std::string_view name(Metric metric) { return metric == Metric::rmse ? "rmse" : "relative-rmse"; }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {

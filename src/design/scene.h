@@ -8,6 +8,7 @@
 
 #include "base/profile.h"
 #include "base/units.h"
+#include "cad/engines.h"
 #include "cad/export.h"
 #include "design/settings.h"
 #include "optim/problem.h"
@@ -34,7 +35,7 @@ struct TargetSpec {
   std::string column;
 };
 
-enum class Engine { meridian, occt };
+enum class Engine { meridian, occt, mesh };
 std::string_view name(Engine engine);
 
 /// How the light is computed.
@@ -42,6 +43,7 @@ struct ModelSpec {
   std::optional<sim::Rung> rung;  ///< nothing: the planner's choice
   Engine engine;
   bool engine_asked_for;  ///< by name, not left to the program
+  cad::MeshOptions mesh;  ///< of engine mesh
   sim::PhotonOptions photons;
   sim::EstimateOptions estimate;
   std::uint64_t replicates;

@@ -5,8 +5,9 @@
 namespace catoptric::design {
 namespace {
 
-std::unique_ptr<Reflector> make_reflector(Engine engine, const Profile& profile) {
-  if (engine == Engine::occt) return cad::make_occt_reflector(profile);
+std::unique_ptr<Reflector> make_reflector(const ModelSpec& model, const Profile& profile) {
+  if (model.engine == Engine::occt) return cad::make_occt_reflector(profile);
+  if (model.engine == Engine::mesh) return cad::make_mesh_reflector(profile, model.mesh);
   return cad::make_meridian_reflector(profile);
 }
 
@@ -14,7 +15,7 @@ std::unique_ptr<Reflector> make_reflector(Engine engine, const Profile& profile)
 
 Stage::Stage(const Scene& spec, const Profile& profile)
     : source(spec.source.position_mm, spec.source.power_w),
-      mirror(make_reflector(spec.model.engine, profile)),
+      mirror(make_reflector(spec.model, profile)),
       scene{source, *mirror, spec.mirror, spec.near_field} {}
 
 sim::ModelRequest model_request(const Scene& scene) {

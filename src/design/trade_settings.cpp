@@ -109,6 +109,16 @@ class SettingList {
       setting.model.photons.photons = std::min(n, scene_.tradeoff.most_photons);
       list_.push_back(setting);
     }
+    for (const double chord_error : {1e-2, 1e-3, 1e-4})
+      for (const double newton_tolerance : {1.0, 1e-14}) {  // 1: the facets' own hits
+        TradeSetting setting = base(sim::Rung::photons);
+        setting.model.engine = Engine::mesh;
+        setting.model.engine_asked_for = true;
+        setting.model.mesh.chord_error = chord_error;
+        setting.model.mesh.newton_tolerance = newton_tolerance;
+        setting.model.photons.photons = std::min<std::uint64_t>(100'000, scene_.tradeoff.most_photons);
+        list_.push_back(setting);
+      }
   }
 
   void threads() {
@@ -162,6 +172,11 @@ std::string words(const Scene& scene, const TradeSetting& setting) {
   if (estimate.kernel != sim::Kernel::silverman) text += fmt::format(", {} kernel", name(estimate.kernel));
   if (setting.model.engine != Engine::meridian)
     text += fmt::format(", engine {}", name(setting.model.engine));
+  if (setting.model.engine == Engine::mesh)
+    text += fmt::format(" with chord error {:g}, {}", setting.model.mesh.chord_error,
+                        setting.model.mesh.newton_tolerance < setting.model.mesh.chord_error
+                            ? fmt::format("Newton to {:g}", setting.model.mesh.newton_tolerance)
+                            : "not refined");
   if (setting.threads > 0)
     text += fmt::format(", {} thread{}", setting.threads, setting.threads > 1 ? "s" : "");
   return text;

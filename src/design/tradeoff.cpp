@@ -119,6 +119,8 @@ bool same_family(const TradeSetting& a, const TradeSetting& b) {
   return a.rung == b.rung && a.model.engine == b.model.engine && a.threads == b.threads &&
          a.model.photons.sampler == b.model.photons.sampler && x.kernel == y.kernel &&
          x.neighbours == y.neighbours && x.kernel_radius_mm == y.kernel_radius_mm &&
+         a.model.mesh.chord_error == b.model.mesh.chord_error &&
+         a.model.mesh.newton_tolerance == b.model.mesh.newton_tolerance &&
          a.accuracy_rel.has_value() == b.accuracy_rel.has_value();
 }
 

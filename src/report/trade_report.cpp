@@ -52,6 +52,10 @@ Json setting_json(const design::Scene& scene, const design::TradeRow& row) {
   Json json = {{"words", design::words(scene, setting)}, {"rung", std::string(name(setting.rung))}};
   if (setting.accuracy_rel) json["accuracy"] = *setting.accuracy_rel;
   json["engine"] = std::string(name(setting.model.engine));
+  if (setting.model.engine == design::Engine::mesh) {
+    json["chord_error"] = setting.model.mesh.chord_error;
+    json["newton_tolerance"] = setting.model.mesh.newton_tolerance;
+  }
   json["sampler"] = sampler_word(setting);
   json["photons"] = row.photons;
   if (!setting.accuracy_rel) {
@@ -130,6 +134,8 @@ Table trade_table(const design::Scene& scene, const design::Tradeoff& trade) {
                {"kernel", ""},
                {"kernel_radius", length},
                {"neighbours", ""},
+               {"chord_error", ""},
+               {"newton_tolerance", ""},
                {"threads", ""},
                {"seconds", "s"},
                {"seconds_least", "s"},
@@ -142,6 +148,7 @@ Table trade_table(const design::Scene& scene, const design::Tradeoff& trade) {
     const design::TradeSetting& setting = row.setting;
     const auto& estimate = setting.model.estimate;
     const bool radius = !setting.accuracy_rel && estimate.kernel_radius_mm;
+    const bool mesh = setting.model.engine == design::Engine::mesh;
     const bool neighbours = !setting.accuracy_rel && estimate.neighbours;
     table.rows.push_back(
         {std::string(name(setting.rung)), std::string(name(setting.model.engine)), sampler_word(setting),
@@ -150,8 +157,10 @@ Table trade_table(const design::Scene& scene, const design::Tradeoff& trade) {
          std::string(sim::name(estimate.kernel)),
          radius ? Cell{scene.to_scene_unit(*estimate.kernel_radius_mm)} : Cell{},
          neighbours ? Cell{static_cast<long long>(*estimate.neighbours)} : Cell{},
-         static_cast<long long>(setting.threads), row.seconds, row.least_seconds, row.error_rel,
-         row.greatest_error_rel, static_cast<long long>(row.seeds), static_cast<long long>(row.on_front)});
+         mesh ? Cell{setting.model.mesh.chord_error} : Cell{},
+         mesh ? Cell{setting.model.mesh.newton_tolerance} : Cell{}, static_cast<long long>(setting.threads),
+         row.seconds, row.least_seconds, row.error_rel, row.greatest_error_rel,
+         static_cast<long long>(row.seeds), static_cast<long long>(row.on_front)});
   }
   return table;
 }
