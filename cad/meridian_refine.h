@@ -90,14 +90,15 @@ struct Residual {
 template <typename Real>
 struct CrossingResidual {
   const AxisLine<Real>& line;
-  Real value(Real r, Real z) const {
+  CATOPTRIC_FORCE_INLINE Real value(const Real& r, const Real& z) const {
     const Real v = line.h * z + line.level;
     return absolute(line.dz) * r - square_root(v * v + line.skew * line.skew);
   }
-  Residual<Real> operator()(const CurvePoint<Real>& p) const {
+  CATOPTRIC_FORCE_INLINE Residual<Real> operator()(const CurvePoint<Real>& p) const {
+    const Real zero = Real(0);
     const Real v = line.h * p.z + line.level;
     const Real length = square_root(v * v + line.skew * line.skew);
-    const Real share = length > 0 ? v / length : Real(0);
+    const Real share = choose(length > zero, v / length, zero);
     const Real x = absolute(line.dz) * p.r;
     return {x - length, absolute(line.dz) * p.dr - share * line.h * p.dz,
             Precision<Real>::unit_roundoff * (x + absolute(share) * line.scale)};
@@ -163,14 +164,29 @@ Root<Real> refine(const Function& function, const Evaluate& at, Real lo, Real hi
 /// Distance along the line to the point of the surface at (r, z), from the height or from the distance to
 /// the axis, whichever changes faster along the line.
 template <typename Real>
-Real distance_along(const AxisLine<Real>& line, Real r, Real z) {
-  const Real v = line.h * z + line.level;
-  const Real steepness = absolute(line.dz);
-  if (2 * steepness >= line.h || (steepness > 0 && steepness * steepness * r >= line.h * absolute(v)))
-    return (z - line.oz) / line.dz;
-  const Real squared = (r - line.across) * (r + line.across);
-  const Real side = squared > 0 ? square_root(squared) : Real(0);
-  return (((v < 0) == (line.dz < 0) ? side : -side) - line.along) / line.h;
+struct DistanceAlong {
+  const AxisLine<Real>& line;
+  const Real &r, &z;
+
+  CATOPTRIC_FORCE_INLINE Real v() const { return line.h * z + line.level; }
+  CATOPTRIC_FORCE_INLINE auto by_height_is_better() const {
+    const Real steepness = absolute(line.dz);
+    return (2.0 * steepness >= line.h) |
+           ((steepness > Real(0)) & (steepness * steepness * r >= line.h * absolute(v())));
+  }
+  CATOPTRIC_FORCE_INLINE Real by_height() const { return (z - line.oz) / line.dz; }
+  CATOPTRIC_FORCE_INLINE Real by_radius() const {
+    const Real zero = Real(0);
+    const Real squared = (r - line.across) * (r + line.across);
+    const Real side = choose(squared > zero, square_root(squared), zero);
+    return (choose((v() < zero) == (line.dz < zero), side, -side) - line.along) / line.h;
+  }
+};
+
+template <typename Real>
+Real distance_along(const AxisLine<Real>& line, const Real& r, const Real& z) {
+  const DistanceAlong<Real> distance{line, r, z};
+  return distance.by_height_is_better() ? distance.by_height() : distance.by_radius();
 }
 
 }  // namespace catoptric::cad::meridian
