@@ -52,7 +52,7 @@ struct NewtonLanes {
   Mask active, failed;
 
   CATOPTRIC_FORCE_INLINE void begin(std::size_t degree) {
-    active = (s > lo) & (s < hi);
+    active = (s > lo) & (s < hi);  // an end may be on the neighbour's half
     failed = ~active;
     last_step = last_slope = Lanes(0);
     point = halves.evaluate(degree, s);
@@ -67,22 +67,23 @@ struct NewtonLanes {
     const Mask below = (f.value < zero) == (sign_lo < zero);
     lo = choose(below, s, lo);
     hi = choose(below, hi, s);
-    const Lanes move = -f.value / f.slope, next = s + move;
-    const Mask inside = (next > lo) & (next < hi);
-    failed |= active & ~inside;
-    active &= inside;
+    const Lanes newton = -f.value / f.slope, half = (lo + hi) / 2.0 - s;
+    const Mask inside = (s + newton > lo) & (s + newton < hi);
+    const Lanes move = choose(inside, newton, half), next = s + move;
+    active &= inside | ~(absolute(half) <= rounding * s);
     constexpr double curl = 64;
-    const Mask first = last_step == zero;
-    const Lanes bend = absolute(
-        Lanes(choose(first, Lanes(1), f.slope - last_slope) / choose(first, move, f.slope * last_step)));
+    const Mask first = last_step == 0.0;
+    const Lanes bend =
+        absolute(choose(first, 1.0, f.slope - last_slope) / choose(first, move, f.slope * last_step));
     const Mask last =
-        active & (((bend + curl) * move * move <= rounding * next) | (absolute(move) <= 2 * rounding * next));
+        active & inside &
+        (((bend + curl) * move * move <= rounding * next) | (absolute(move) <= 2 * rounding * next));
     point.r = choose(last, point.r + point.dr * move, point.r);
     point.z = choose(last, point.z + point.dz * move, point.z);
     s = choose(active, next, s);
     active &= ~last;
     if (!any(active)) return false;
-    last_step = move;
+    last_step = choose(inside, move, 0.0);
     last_slope = f.slope;
     const CurvePoint<Lanes> at = halves.evaluate(degree, s);
     point.r = choose(active, at.r, point.r);
