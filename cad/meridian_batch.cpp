@@ -6,6 +6,7 @@
 #include "cad/meridian_batch_refine.h"
 #include "cad/meridian_batch_work.h"
 #include "cad/meridian_candidate.h"
+#include "cad/meridian_isolate.h"
 
 /// For lambdas that become part of code under CATOPTRIC_VECTOR_CLONES.
 #define FORCE_INLINE __attribute__((always_inline))
@@ -79,7 +80,7 @@ class CrossingFinder {
 
   /// A piece, and its halves for the rays that want them.
   CATOPTRIC_FORCE_INLINE void look_at(std::size_t number, const Mask& rays) {
-    Visit stack[8];  // pieces are halved three times in advance: four at most wait
+    Visit stack[FastTable::most_levels + 1];  // one sibling waits on each level
     std::size_t size = 1;
     stack[0] = {number, rays};
     while (size > 0) {
@@ -100,27 +101,31 @@ class CrossingFinder {
   /// Notes the rays that cross the piece once.
   /// @out   those whose crossings the signs do not tell
   CATOPTRIC_FORCE_INLINE Mask judge(std::size_t number, const FastPiece& piece, const Mask& rays) {
-    const Lanes zero = Lanes(0);
     const CrossingFactors<Lanes>& factors = group_.factors;
-    const Lanes front = factors.coefficient(piece, 0);
-    Lanes least = front, greatest = front, smallest = absolute(front);
-    Mask before = front < zero, changed = before != before, again = changed;
+    std::array<Lanes, most_coefficients> f;
+    f[0] = factors.coefficient(piece, 0);
+    Lanes least = f[0], greatest = f[0];
     for (std::size_t i = 1; i <= last_; ++i) {
-      const Lanes f = factors.coefficient(piece, i);
-      least = lesser_of(least, f);
-      greatest = greater_of(greatest, f);
-      smallest = lesser_of(smallest, absolute(f));
-      const Mask below = f < zero;
-      const Mask changes = below != before;
-      again |= changed & changes;
-      changed |= changes;
-      before = below;
+      f[i] = factors.coefficient(piece, i);
+      least = lesser_of(least, f[i]);
+      greatest = greater_of(greatest, f[i]);
     }
     Mask left = rays & group_.open & ~((least > factors.error) | (greatest < -factors.error));
     if (!any(left)) return left;
     left &= ~group_.culler.misses(group_.line, piece.ring);
+    if (!any(left)) return left;
+    const Lanes zero = Lanes(0);
+    Lanes smallest = absolute(f[0]);
+    Mask before = f[0] < zero, changed = before != before, again = changed;
+    for (std::size_t i = 1; i <= last_; ++i) {
+      smallest = lesser_of(smallest, absolute(f[i]));
+      const Mask below = f[i] < zero, changes = below != before;
+      again |= changed & changes;
+      changed |= changes;
+      before = below;
+    }
     const Mask once = left & (smallest > factors.error) & changed & ~again;
-    if (any(once)) note(number, piece, front, once);
+    if (any(once)) note(number, piece, f[0], once);
     return left & ~once;
   }
 

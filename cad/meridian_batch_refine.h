@@ -71,13 +71,10 @@ struct NewtonLanes {
     const Mask inside = (s + newton > lo) & (s + newton < hi);
     const Lanes move = choose(inside, newton, half), next = s + move;
     active &= inside | ~(absolute(half) <= rounding * s);
-    constexpr double curl = 64;
     const Mask first = last_step == 0.0;
     const Lanes bend =
         absolute(choose(first, 1.0, f.slope - last_slope) / choose(first, move, f.slope * last_step));
-    const Mask last =
-        active & inside &
-        (((bend + curl) * move * move <= rounding * next) | (absolute(move) <= 2 * rounding * next));
+    const Mask last = active & inside & is_last_step(bend, move, next);
     point.r = choose(last, point.r + point.dr * move, point.r);
     point.z = choose(last, point.z + point.dz * move, point.z);
     s = choose(active, next, s);

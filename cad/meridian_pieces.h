@@ -44,6 +44,8 @@ struct FastTable {
   FastTable(const FastTable&) = delete;
   FastTable& operator=(const FastTable&) = delete;
 
+  static constexpr std::size_t most_levels = 5;  ///< of halving in advance
+
   std::vector<FastPiece> pieces;
   std::vector<Piece<double>> halvable;  ///< the same pieces, for the solver by halving
   std::size_t top = 0;                  ///< the first `top` pieces make up the generatrix

@@ -120,6 +120,16 @@ struct Root {
   CurvePoint<Real> point;
 };
 
+/// Whether nothing is left to gain after a Newton step to `next`. The step's own error is its square times
+/// f''/(2 f'), of which the slopes give twice the value (`bend`); that of the point carried along is its
+/// square times r''/2, for which `curl` stands.
+template <typename Real>
+CATOPTRIC_FORCE_INLINE auto is_last_step(const Real& bend, const Real& step, const Real& next) {
+  constexpr auto rounding = Precision<Real>::unit_roundoff;
+  const Real curl = 64.0;
+  return ((bend + curl) * step * step <= rounding * next) | (absolute(step) <= 2.0 * rounding * next);
+}
+
 /// Newton's method kept inside a bracket whose lower end has the sign `sign_lo`; starts at `s`.
 /// @error s to a rounding, or to where the residual is noise
 /// @cost  four to six evaluations; at worst a few times the number of digits
@@ -141,12 +151,9 @@ Root<Real> refine(const Function& function, const Evaluate& at, Real lo, Real hi
     }
     const Real next = root.s + step;
     if (inside) {
-      // The step's own error is its square times f''/(2 f'), of which the slopes give twice the value; that
-      // of the point carried along is its square times r''/2, for which `curl` stands.
-      constexpr Real curl = 64;
       const Real bend =
           last_step == 0 ? Real(1) / absolute(step) : absolute((slope - last_slope) / (slope * last_step));
-      if ((bend + curl) * step * step <= rounding * next || absolute(step) <= 2 * rounding * next) {
+      if (is_last_step(bend, step, next)) {
         root.point.r += root.point.dr * step;
         root.point.z += root.point.dz * step;
         root.s = next;
