@@ -7,6 +7,7 @@
 #include "cad/meridian_batch_work.h"
 #include "cad/meridian_candidate.h"
 #include "cad/meridian_isolate.h"
+#include "cad/meridian_reflector.h"
 
 /// For lambdas that become part of code under CATOPTRIC_VECTOR_CLONES.
 #define FORCE_INLINE __attribute__((always_inline))
@@ -232,7 +233,7 @@ class JobLoader {
 CATOPTRIC_VECTOR_CLONES void refine_crossings(const SpanTable& table, const FastTable& fast, RayGroup* group,
                                               double beyond_mm, std::span<const CrossingJob> jobs,
                                               std::size_t count, NearestHits& nearest) {
-  constexpr int most_steps = 16;  // five or six are usual
+  constexpr int most_steps = 16;  // four are usual
   const std::size_t degree = static_cast<std::size_t>(table.degree);
   NewtonLanes newton[chains];
   for (std::size_t first = 0; first < count; first += jobs_at_once) {
@@ -380,3 +381,14 @@ const std::array<bool, BatchSolver::most_rays>& BatchSolver::solve(std::span<con
 }
 
 }  // namespace catoptric::cad::meridian
+
+bool catoptric::cad::meridian_works_side_by_side() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return true;
+#elif defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+  static const bool wide = __builtin_cpu_supports("avx2");
+  return wide;
+#else
+  return false;
+#endif
+}

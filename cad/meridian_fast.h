@@ -33,14 +33,18 @@ class FastProbe final : public MeridianProbe {
   }
 
   void first_hits(std::span<const Ray> rays, double beyond_mm, std::span<std::optional<Hit>> hits) override {
+    if (!meridian_works_side_by_side()) return Probe::first_hits(rays, beyond_mm, hits);
     for (std::size_t first = 0; first < rays.size(); first += BatchSolver::most_rays) {
       const std::size_t count = std::min(BatchSolver::most_rays, rays.size() - first);
       const auto& alone = batch_.solve(rays.subspan(first, count), beyond_mm, hits.subspan(first, count));
-      for (std::size_t i = 0; i < count; ++i)
-        if (alone[i])
+      for (std::size_t i = 0; i < count; ++i) {
+        if (alone[i]) {
           hits[first + i] = first_hit(rays[first + i], beyond_mm);
-        else
-          ++counts_.rays, ++counts_.side_by_side;
+        } else {
+          ++counts_.rays;
+          ++counts_.side_by_side;
+        }
+      }
     }
   }
 

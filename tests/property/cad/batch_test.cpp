@@ -147,7 +147,10 @@ TEST_CASE("of ordinary rays nearly all are answered side by side, of hard ones f
       const auto& counts = dynamic_cast<const cad::MeridianProbe&>(*probe).counts();
       INFO(quadric.name << ", class " << name(which));
       CHECK(counts.rays == rays.size());
-      CHECK(counts.side_by_side > 9500);
+      if (cad::meridian_works_side_by_side())
+        CHECK(counts.side_by_side > 9500);
+      else
+        CHECK(counts.side_by_side == 0);
     }
     const std::vector<Ray> hard = hard_rays(quadric.profile);
     std::vector<std::optional<Hit>> hits(hard.size());
