@@ -32,9 +32,9 @@ CATOPTRIC_VECTOR_CLONES void set_groups(const SpanTable& table, std::span<const 
     const auto direction = [&](int axis) FORCE_INLINE {
       return gather([&](std::size_t k) { return ray[k]->direction[axis]; });
     };
-    NearRay<Lanes>& near = group->near;
+    NearRays<Lanes>& near = group->near;
     near.set(origin(0), origin(1), origin(2), direction(0), direction(1), direction(2), table);
-    group->line = axis_line(near, table);
+    group->line = AxisLine<Lanes>(near, table);
     const AxisLine<Lanes>& line = group->line;
     group->culler.set(line, near.shift, beyond_mm, table.size);
     group->factors.set(line);
@@ -188,7 +188,7 @@ class JobLoader {
     const CurvePoint<Lanes>& p = newton.point;
     const DistanceAlong<Lanes> distance{newton.line, p.r, p.z};
     const Lanes t = choose(distance.by_height_is_better(), distance.by_height(), distance.by_radius());
-    NearRay<Lanes> near;
+    NearRays<Lanes> near;
     near.ox = newton.line.ox;
     near.oy = newton.line.oy;
     near.oz = newton.line.oz;
@@ -275,7 +275,7 @@ class HitDresser {
     };
     const Lanes t = of(nearest_.t), s = of(nearest_.s), r = of(nearest_.r), z = of(nearest_.z);
     const Lanes zero = Lanes(0);
-    const NearRay<Lanes>& near = group_.near;
+    const NearRays<Lanes>& near = group_.near;
     const Lanes x = near.ox + t * near.dx, y = near.oy + t * near.dy;
     const Lanes distance = square_root(x * x + y * y);
     const Lanes ex = x / distance, ey = y / distance;

@@ -10,7 +10,7 @@ namespace catoptric::cad::meridian {
 
 /// Four rays side by side.
 struct RayGroup {
-  NearRay<Lanes> near;
+  NearRays<Lanes> near;
   AxisLine<Lanes> line;
   Culler<Lanes> culler;
   CrossingFactors<Lanes> factors;

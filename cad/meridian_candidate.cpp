@@ -8,7 +8,7 @@ namespace {
 
 /// Unit vector across the axis in the azimuth of the hit. On the axis itself every azimuth is right for the
 /// point; the ray's own meridian plane is chosen, which decides the normal at a cone's tip.
-Vector2 azimuth(const NearRay<double>& near, double t, double r) {
+Vector2 azimuth(const NearRay& near, double t, double r) {
   const Vector2 at(near.ox + t * near.dx, near.oy + t * near.dy);
   const double distance = std::sqrt(at.x() * at.x() + at.y() * at.y());
   if (r > 0 && distance > 0) return at / distance;
@@ -31,7 +31,7 @@ Vector2 tangent(const SpanForm& span, double s) {
 
 }  // namespace
 
-Hit make_hit(const SpanTable& table, const NearRay<double>& near, const Candidate& candidate) {
+Hit make_hit(const SpanTable& table, const NearRay& near, const Candidate& candidate) {
   const SpanForm& span = table.spans[static_cast<std::size_t>(candidate.span)];
   const Vector2 e = azimuth(near, candidate.t, candidate.r);
   Vector2 along = tangent(span, candidate.s);

@@ -95,10 +95,9 @@ void find_level_hits(const SpanTable& table, const QuadLine& line, Collector& co
 
 }  // namespace
 
-void find_exactly(const SpanTable& table, const Ray& ray, const NearRay<double>& near,
-                  std::vector<Candidate>& out) {
+void find_exactly(const SpanTable& table, const Ray& ray, const NearRay& near, std::vector<Candidate>& out) {
   out.clear();
-  const QuadLine line = exact_line(ray, near, table);
+  const QuadLine line(ray, near, table);
   Collector collector(table, line, out);
   if (absolute(line.dz) <= Quad(horizontal_slope) * line.h) {
     find_level_hits(table, line, collector);

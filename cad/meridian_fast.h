@@ -22,7 +22,7 @@ class FastProbe final : public MeridianProbe {
   }
 
   std::optional<Hit> first_hit(const Ray& ray, double beyond_mm) override {
-    const NearRay<double> near = near_ray(ray, table_);
+    const NearRay near(ray, table_);
     find(ray, near, beyond_mm, Wanted::first);
     const Candidate* first = nullptr;
     for (const Candidate& candidate : candidates_)
@@ -49,7 +49,7 @@ class FastProbe final : public MeridianProbe {
   }
 
   std::vector<Hit> all_hits(const Ray& ray, double beyond_mm) override {
-    const NearRay<double> near = near_ray(ray, table_);
+    const NearRay near(ray, table_);
     find(ray, near, beyond_mm, Wanted::all);
     std::vector<Hit> hits;
     for (const Candidate& candidate : candidates_)
@@ -65,17 +65,17 @@ class FastProbe final : public MeridianProbe {
   /// One line on its way through the pieces.
   struct Pass {
     const AxisLine<double>& line;
-    const NearRay<double>& near;
+    const NearRay& near;
     Culler<double> culler;
     CrossingFactors<double> factors;
   };
 
   /// The hits of the line, unordered, into candidates_; surely those that are wanted.
-  void find(const Ray& ray, const NearRay<double>& near, double beyond_mm, Wanted wanted) {
+  void find(const Ray& ray, const NearRay& near, double beyond_mm, Wanted wanted) {
     ++counts_.rays;
     candidates_.clear();
     if (!near.passes(table_)) return;
-    const AxisLine<double> line = axis_line(near, table_);
+    const AxisLine<double> line(ray, near, table_);
     if (line.h == 0 && line.along == 0 && line.across == 0 && table_.axis_points_known) {  // the axis itself
       for (const AxisPoint& at : table_.axis_points)
         candidates_.push_back(make_candidate(near, (at.z - line.oz) / line.dz, at.s, 0, at.z, at.span));
@@ -92,7 +92,7 @@ class FastProbe final : public MeridianProbe {
   }
 
   bool find_crossings(Pass& pass);
-  bool find_level(const AxisLine<double>& line, const NearRay<double>& near);
+  bool find_level(const AxisLine<double>& line, const NearRay& near);
   bool look_at(Pass& pass, std::size_t number);
   bool halve_and_solve(Pass& pass, const Piece<double>& piece);
   void solve(Pass& pass, int span, double lo, double hi, int sign_lo, double start);
@@ -176,7 +176,7 @@ bool FastProbe<Degree>::halve_and_solve(Pass& pass, const Piece<double>& piece) 
 }
 
 template <int Degree>
-bool FastProbe<Degree>::find_level(const AxisLine<double>& line, const NearRay<double>& near) {
+bool FastProbe<Degree>::find_level(const AxisLine<double>& line, const NearRay& near) {
   brackets_.clear();
   const LevelForm<double> level{line, table_.z_extent};
   Isolator<double, LevelForm<double>> isolator(level, Degree, brackets_);

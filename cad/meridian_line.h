@@ -25,7 +25,7 @@ CATOPTRIC_FORCE_INLINE Real fused(const Real& x, const Real& a, const Real& b) {
 /// origin is of the part's size, however far the source is.
 /// @in    Real is double, or Lanes for several rays at a time
 template <typename Real>
-struct NearRay {
+struct NearRays {
   Real ox, oy, oz;  ///< oz from the centre
   Real dx, dy, dz;
   Real shift;  ///< distance along the given ray = shift + t
@@ -55,12 +55,13 @@ struct NearRay {
   }
 };
 
-inline NearRay<double> near_ray(const Ray& ray, const SpanTable& table) {
-  const Vector3 &o = ray.origin_mm, &d = ray.direction;
-  NearRay<double> near;
-  near.set(o.x(), o.y(), o.z(), d.x(), d.y(), d.z(), table);
-  return near;
-}
+/// One such ray.
+struct NearRay : NearRays<double> {
+  NearRay(const Ray& ray, const SpanTable& table) {
+    const Vector3 &o = ray.origin_mm, &d = ray.direction;
+    set(o.x(), o.y(), o.z(), d.x(), d.y(), d.z(), table);
+  }
+};
 
 /// The line of a ray in the axis frame: what the meridian sees of it. Along the line, the distance from the
 /// axis is that of a point which runs at speed `h` on a straight line passing the axis at `across`.
@@ -75,6 +76,14 @@ struct AxisLine {
   Real skew;    ///< |dz| across
   Real scale;   ///< bound of every term of F, unsquared
 
+  AxisLine() = default;
+  CATOPTRIC_FORCE_INLINE AxisLine(const NearRays<Real>& near, const SpanTable& table)
+      : ox(near.ox), oy(near.oy), oz(near.oz), dx(near.dx), dy(near.dy), dz(near.dz) {
+    complete(table);
+  }
+  AxisLine(const Ray& ray, const NearRay& near, const SpanTable& table);
+
+ private:
   /// From the origin and direction, which are set.
   CATOPTRIC_FORCE_INLINE void complete(const SpanTable& table) {
     const Real zero = Real(0), one = Real(1);
@@ -94,30 +103,15 @@ struct AxisLine {
 };
 
 template <typename Real>
-CATOPTRIC_FORCE_INLINE AxisLine<Real> axis_line(const NearRay<Real>& near, const SpanTable& table) {
-  AxisLine<Real> line;
-  line.ox = near.ox;
-  line.oy = near.oy;
-  line.oz = near.oz;
-  line.dx = near.dx;
-  line.dy = near.dy;
-  line.dz = near.dz;
-  line.complete(table);
-  return line;
-}
-
-/// From the ray as given, without the roundings of NearRay.
-inline AxisLine<Quad> exact_line(const Ray& ray, const NearRay<double>& near, const SpanTable& table) {
-  AxisLine<Quad> line;
-  line.dx = near.dx;
-  line.dy = near.dy;
-  line.dz = near.dz;
-  const Quad shift = near.shift;
-  line.ox = Quad(ray.origin_mm.x()) + shift * line.dx;
-  line.oy = Quad(ray.origin_mm.y()) + shift * line.dy;
-  line.oz = (Quad(ray.origin_mm.z()) - Quad(table.centre_z)) + shift * line.dz;
-  line.complete(table);
-  return line;
+AxisLine<Real>::AxisLine(const Ray& ray, const NearRay& near, const SpanTable& table)
+    : ox(near.ox), oy(near.oy), oz(near.oz), dx(near.dx), dy(near.dy), dz(near.dz) {
+  if constexpr (!std::is_same_v<Real, double>) {  // from the ray as given, without the roundings of NearRay
+    const Real shift = near.shift;
+    ox = Real(ray.origin_mm.x()) + shift * dx;
+    oy = Real(ray.origin_mm.y()) + shift * dy;
+    oz = (Real(ray.origin_mm.z()) - Real(table.centre_z)) + shift * dz;
+  }
+  complete(table);
 }
 
 }  // namespace catoptric::cad::meridian
