@@ -10,7 +10,7 @@ namespace {
 /// point; the ray's own meridian plane is chosen, which decides the normal at a cone's tip.
 Vector2 azimuth(const NearRay& near, double t, double r) {
   const Vector2 at(near.ox + t * near.dx, near.oy + t * near.dy);
-  const double distance = std::sqrt(at.squaredNorm());
+  const double distance = std::sqrt(at.x() * at.x() + at.y() * at.y());
   if (r > 0 && distance > 0) return at / distance;
   const double h = std::hypot(near.dx, near.dy);
   return h > 0 ? Vector2(near.dx / h, near.dy / h) : Vector2(1, 0);
@@ -31,15 +31,6 @@ Vector2 tangent(const SpanForm& span, double s) {
 
 }  // namespace
 
-Candidate make_candidate(const NearRay& near, double t, double s, double r, double z, int span) {
-  const double x = near.ox + t * near.dx, y = near.oy + t * near.dy;
-  const double distance = std::sqrt(x * x + y * y);
-  const double share = distance > 0 ? r / distance : 0;
-  const double nearest =
-      (share * x - near.ox) * near.dx + (share * y - near.oy) * near.dy + (z - near.oz) * near.dz;
-  return {nearest, s, r, z, span};
-}
-
 Hit make_hit(const SpanTable& table, const NearRay& near, const Candidate& candidate) {
   const SpanForm& span = table.spans[static_cast<std::size_t>(candidate.span)];
   const Vector2 e = azimuth(near, candidate.t, candidate.r);
@@ -48,7 +39,7 @@ Hit make_hit(const SpanTable& table, const NearRay& near, const Candidate& candi
   constexpr double beside = 0x1p-26;
   if (along.squaredNorm() == 0) along = tangent(span, candidate.s + (candidate.s < 0.5 ? beside : -beside));
   Vector3 normal(along.y() * e.x(), along.y() * e.y(), -along.x());
-  normal /= std::sqrt(normal.squaredNorm());
+  normal /= std::sqrt(normal.x() * normal.x() + normal.y() * normal.y() + normal.z() * normal.z());
   if (normal.x() * near.dx + normal.y() * near.dy + normal.z() * near.dz > 0) normal = -normal;
   return {near.shift + candidate.t,
           Vector3(candidate.r * e.x(), candidate.r * e.y(), candidate.z + table.centre_z), normal,

@@ -15,9 +15,20 @@ struct Candidate {
   int span;
 };
 
-/// A hit at about t, with t moved to where the line is nearest to the surface point that lies in its own
-/// azimuth.
-Candidate make_candidate(const NearRay& near, double t, double s, double r, double z, int span);
+/// About t, where the line is nearest to the surface point at (r, z) that lies in the azimuth of t.
+template <typename Real>
+CATOPTRIC_FORCE_INLINE Real nearest_along(const NearRays<Real>& near, const Real& t, const Real& r,
+                                          const Real& z) {
+  const Real x = near.ox + t * near.dx, y = near.oy + t * near.dy;
+  const Real distance = square_root(x * x + y * y), zero = Real(0);
+  const Real share = choose(distance > zero, r / distance, zero);
+  return (share * x - near.ox) * near.dx + (share * y - near.oy) * near.dy + (z - near.oz) * near.dz;
+}
+
+/// A hit at about t.
+inline Candidate make_candidate(const NearRay& near, double t, double s, double r, double z, int span) {
+  return {nearest_along<double>(near, t, r, z), s, r, z, span};
+}
 
 /// Point, normal and distance of a hit.
 Hit make_hit(const SpanTable& table, const NearRay& near, const Candidate& candidate);

@@ -47,40 +47,43 @@ inline std::vector<CullNode> build_cull_tree(const std::vector<CullNode>& boxes)
 
 /// The stretch of a line in which hits are wanted, and the test of rings against it. Errs towards looking:
 /// the slack is far above any rounding, so what it rejects cannot be met, nor can its ends.
-class Culler {
- public:
-  Culler(const AxisLine<double>& line, double from, double until, double slack)
-      : line_(line),
-        steep_(std::abs(line.dz) >= 0x1p-10),  // else heights do not tell where along the line a point is
-        inverse_(1 / line.dz),
-        across_squared_(line.across * line.across),
-        slack_(slack),
-        from_(from),
-        until_(until) {}
+template <typename Real>
+struct Culler {
+  using Truth = decltype(Real{} < Real{});
+
+  Real inverse, across_squared, slack, from, until;
+  Truth steep;  ///< else heights do not tell where along the line a point is
+
+  /// For hits beyond `beyond_mm` along the ray.
+  CATOPTRIC_FORCE_INLINE void set(const AxisLine<Real>& line, const Real& shift, double beyond_mm,
+                                  double size) {
+    constexpr double generous = 1e-9;  // far above any rounding of t
+    inverse = 1.0 / line.dz;
+    across_squared = line.across * line.across;
+    slack = generous * (size + absolute(shift));
+    from = beyond_mm - shift - slack;
+    until = Real(HUGE_VAL);
+    steep = absolute(line.dz) >= Real(0x1p-10);
+  }
 
   /// A hit at t was found; none beyond it is wanted any more.
   void found(double t) {
-    if (t >= from_ + 2 * slack_) until_ = std::min(until_, t + slack_);
+    if (t >= from + 2 * slack) until = std::min(until, t + slack);
   }
 
-  bool misses(const CullNode& ring) const {
-    if (!steep_) return false;
-    const double a = (ring.z_min - slack_ - line_.oz) * inverse_;
-    const double b = (ring.z_max + slack_ - line_.oz) * inverse_;
-    const double lo = std::max(std::min(a, b), from_), hi = std::min(std::max(a, b), until_);
-    if (lo > hi) return true;
-    const double side_lo = line_.along + line_.h * lo, side_hi = line_.along + line_.h * hi;
-    const double nearest = std::max({side_lo, -side_hi, 0.0});
-    const double farthest = std::max(-side_lo, side_hi);
-    const double outer = ring.r_max + slack_, inner = ring.r_min - slack_;
-    return across_squared_ + nearest * nearest > outer * outer ||
-           (inner > 0 && across_squared_ + farthest * farthest < inner * inner);
+  CATOPTRIC_FORCE_INLINE Truth misses(const AxisLine<Real>& line, const CullNode& ring) const {
+    const Real zero = Real(0);
+    const Real a = (ring.z_min - slack - line.oz) * inverse;
+    const Real b = (ring.z_max + slack - line.oz) * inverse;
+    const Real lo = greater_of(lesser_of(a, b), from), hi = lesser_of(greater_of(a, b), until);
+    if (!any(Truth(steep & (lo <= hi)))) return steep;
+    const Real side_lo = line.along + line.h * lo, side_hi = line.along + line.h * hi;
+    const Real nearest = greater_of(greater_of(side_lo, -side_hi), zero);
+    const Real farthest = greater_of(-side_lo, side_hi);
+    const Real outer = ring.r_max + slack, inner = ring.r_min - slack;
+    return Truth(steep & ((lo > hi) | (across_squared + nearest * nearest > outer * outer) |
+                          ((inner > zero) & (across_squared + farthest * farthest < inner * inner))));
   }
-
- private:
-  const AxisLine<double>& line_;
-  bool steep_;
-  double inverse_, across_squared_, slack_, from_, until_;
 };
 
 }  // namespace catoptric::cad::meridian

@@ -38,8 +38,8 @@ Root<Quad> locate(const SpanTable& table, const Function& function, const QuadBr
 /// Collects hits; touches only where nothing else is, and only if the line really comes to the surface.
 class Collector {
  public:
-  Collector(const SpanTable& table, const QuadLine& line, const NearRay& near, std::vector<Candidate>& out)
-      : table_(table), line_(line), near_(near), out_(out) {}
+  Collector(const SpanTable& table, const QuadLine& line, std::vector<Candidate>& out)
+      : table_(table), line_(line), out_(out) {}
 
   void add(Quad t, const Root<Quad>& root, const QuadBracket& bracket) {
     const bool touch = bracket.cluster && bracket.sign_lo == bracket.sign_hi;
@@ -70,7 +70,6 @@ class Collector {
 
   const SpanTable& table_;
   const QuadLine& line_;
-  const NearRay& near_;
   std::vector<Candidate>& out_;
   std::vector<Candidate> touches_;
 };
@@ -99,14 +98,14 @@ void find_level_hits(const SpanTable& table, const QuadLine& line, Collector& co
 void find_exactly(const SpanTable& table, const Ray& ray, const NearRay& near, std::vector<Candidate>& out) {
   out.clear();
   const QuadLine line(ray, near, table);
-  Collector collector(table, line, near, out);
+  Collector collector(table, line, out);
   if (absolute(line.dz) <= Quad(horizontal_slope) * line.h) {
     find_level_hits(table, line, collector);
   } else {
     const CrossingForm<Quad> form{line};
     for (const QuadBracket& bracket : isolate(table, form)) {
       const Root<Quad> root = locate(table, CrossingResidual<Quad>{line}, bracket);
-      collector.add(distance_along(line, root.point.r, root.point.z), root, bracket);
+      collector.add(distance_along<Quad>(line, root.point.r, root.point.z), root, bracket);
     }
   }
   collector.finish();

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <limits>
 
+/// Before functions that are also made for numbers of several rays (meridian_lanes.h).
+#define CATOPTRIC_FORCE_INLINE inline __attribute__((always_inline))
+
 namespace catoptric::cad::meridian {
 
 /// The number type of the rare rays that double cannot decide: 113 bits where the compiler offers them.
@@ -51,14 +54,23 @@ inline Quad square_root(Quad x) {
   return root * back;
 }
 
+inline double absolute(double x) { return std::abs(x); }
+inline Quad absolute(Quad x) { return x < 0 ? -x : x; }
+
+/// `where ? a : b` in terms that a number type of several rays at a time has, too.
 template <typename Real>
-Real absolute(Real x) {
-  return x < 0 ? -x : x;
+CATOPTRIC_FORCE_INLINE Real choose(bool where, const Real& a, const Real& b) {
+  return where ? a : b;
 }
+inline bool any(bool where) { return where; }
 
 template <typename Real>
-Real greater_of(Real a, Real b) {
-  return a < b ? b : a;
+CATOPTRIC_FORCE_INLINE Real greater_of(const Real& a, const Real& b) {
+  return choose(a < b, b, a);
+}
+template <typename Real>
+CATOPTRIC_FORCE_INLINE Real lesser_of(const Real& a, const Real& b) {
+  return choose(b < a, b, a);
 }
 
 }  // namespace catoptric::cad::meridian

@@ -90,14 +90,15 @@ struct Residual {
 template <typename Real>
 struct CrossingResidual {
   const AxisLine<Real>& line;
-  Real value(Real r, Real z) const {
+  CATOPTRIC_FORCE_INLINE Real value(const Real& r, const Real& z) const {
     const Real v = line.h * z + line.level;
     return absolute(line.dz) * r - square_root(v * v + line.skew * line.skew);
   }
-  Residual<Real> operator()(const CurvePoint<Real>& p) const {
+  CATOPTRIC_FORCE_INLINE Residual<Real> operator()(const CurvePoint<Real>& p) const {
+    const Real zero = Real(0);
     const Real v = line.h * p.z + line.level;
     const Real length = square_root(v * v + line.skew * line.skew);
-    const Real share = length > 0 ? v / length : Real(0);
+    const Real share = choose(length > zero, v / length, zero);
     const Real x = absolute(line.dz) * p.r;
     return {x - length, absolute(line.dz) * p.dr - share * line.h * p.dz,
             Precision<Real>::unit_roundoff * (x + absolute(share) * line.scale)};
@@ -118,6 +119,16 @@ struct Root {
   Real s;
   CurvePoint<Real> point;
 };
+
+/// Whether nothing is left to gain after a Newton step to `next`. The step's own error is its square times
+/// f''/(2 f'), of which the slopes give twice the value (`bend`); that of the point carried along is its
+/// square times r''/2, for which `curl` stands.
+template <typename Real>
+CATOPTRIC_FORCE_INLINE auto is_last_step(const Real& bend, const Real& step, const Real& next) {
+  constexpr auto rounding = Precision<Real>::unit_roundoff;
+  const Real curl = 64.0;
+  return ((bend + curl) * step * step <= rounding * next) | (absolute(step) <= 2.0 * rounding * next);
+}
 
 /// Newton's method kept inside a bracket whose lower end has the sign `sign_lo`; starts at `s`.
 /// @error s to a rounding, or to where the residual is noise
@@ -140,12 +151,9 @@ Root<Real> refine(const Function& function, const Evaluate& at, Real lo, Real hi
     }
     const Real next = root.s + step;
     if (inside) {
-      // The step's own error is its square times f''/(2 f'), of which the slopes give twice the value; that
-      // of the point carried along is its square times r''/2, for which `curl` stands.
-      constexpr Real curl = 64;
       const Real bend =
           last_step == 0 ? Real(1) / absolute(step) : absolute((slope - last_slope) / (slope * last_step));
-      if ((bend + curl) * step * step <= rounding * next || absolute(step) <= 2 * rounding * next) {
+      if (is_last_step(bend, step, next)) {
         root.point.r += root.point.dr * step;
         root.point.z += root.point.dz * step;
         root.s = next;
@@ -163,14 +171,29 @@ Root<Real> refine(const Function& function, const Evaluate& at, Real lo, Real hi
 /// Distance along the line to the point of the surface at (r, z), from the height or from the distance to
 /// the axis, whichever changes faster along the line.
 template <typename Real>
-Real distance_along(const AxisLine<Real>& line, Real r, Real z) {
-  const Real v = line.h * z + line.level;
-  const Real steepness = absolute(line.dz);
-  if (2 * steepness >= line.h || (steepness > 0 && steepness * steepness * r >= line.h * absolute(v)))
-    return (z - line.oz) / line.dz;
-  const Real squared = (r - line.across) * (r + line.across);
-  const Real side = squared > 0 ? square_root(squared) : Real(0);
-  return (((v < 0) == (line.dz < 0) ? side : -side) - line.along) / line.h;
+struct DistanceAlong {
+  const AxisLine<Real>& line;
+  const Real &r, &z;
+
+  CATOPTRIC_FORCE_INLINE Real v() const { return line.h * z + line.level; }
+  CATOPTRIC_FORCE_INLINE auto by_height_is_better() const {
+    const Real steepness = absolute(line.dz);
+    return (2.0 * steepness >= line.h) |
+           ((steepness > Real(0)) & (steepness * steepness * r >= line.h * absolute(v())));
+  }
+  CATOPTRIC_FORCE_INLINE Real by_height() const { return (z - line.oz) / line.dz; }
+  CATOPTRIC_FORCE_INLINE Real by_radius() const {
+    const Real zero = Real(0);
+    const Real squared = (r - line.across) * (r + line.across);
+    const Real side = choose(squared > zero, square_root(squared), zero);
+    return (choose((v() < zero) == (line.dz < zero), side, -side) - line.along) / line.h;
+  }
+};
+
+template <typename Real>
+Real distance_along(const AxisLine<Real>& line, const Real& r, const Real& z) {
+  const DistanceAlong<Real> distance{line, r, z};
+  return distance.by_height_is_better() ? distance.by_height() : distance.by_radius();
 }
 
 }  // namespace catoptric::cad::meridian

@@ -22,7 +22,7 @@ class MeridianReflector final : public Reflector {
  private:
   Profile profile_;
   meridian::SpanTable table_;
-  meridian::FastTable<Degree> fast_;
+  meridian::FastTable fast_;
 };
 
 template <int... Offsets>

@@ -6,6 +6,7 @@
 #include "base/tolerance.h"
 #include "cad/engines.h"
 #include "cad/meridian_reflector.h"
+#include "support/cad/random_profile.h"
 #include "support/cad/rays.h"
 
 using namespace catoptric;
@@ -14,24 +15,6 @@ using namespace catoptric::test;
 namespace {
 
 using Wide = long double;
-
-/// A rational profile with bumps, from the axis outwards, several spans, knots unevenly spaced.
-Profile random_profile(int degree, std::uint64_t seed) {
-  RandomStream random(seed, Purpose::test, 1000 + static_cast<std::uint64_t>(degree));
-  const std::size_t count =
-      static_cast<std::size_t>(degree) + 1 + static_cast<std::size_t>(4 * random.uniform());
-  std::vector<ControlPoint> points;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-    const double r = i == 0 ? 0 : 80 * share * (0.8 + 0.4 * random.uniform());
-    const double z = 60 * (1 - share * share) + 25 * (random.uniform() - 0.5);
-    const double weight = std::exp2(4 * random.uniform() - 2);
-    points.push_back({r, z, weight});
-  }
-  std::vector<double> knots = Profile::uniform_knots(degree, count);
-  for (double& knot : knots) knot = std::pow(knot, 1.3);
-  return Profile(degree, knots, points);
-}
 
 struct WidePoint {
   Wide r, z;
@@ -149,6 +132,8 @@ TEST_CASE("every degree: hits lie on ray and surface, and are as many as brute f
       const auto reflector = cad::make_meridian_reflector(profile);
       const auto probe = reflector->probe();
       const BruteForce brute(profile);
+      std::vector<Ray> lines;
+      std::vector<std::optional<Hit>> firsts;
       for (const RayClass which : all_classes)
         for (std::uint64_t i = 0; i < 700; ++i) {
           const Ray ray = line_through(random_ray(which, profile, {1, 2, 30}, seed, i), size);
@@ -162,6 +147,8 @@ TEST_CASE("every degree: hits lie on ray and surface, and are as many as brute f
             UNSCOPED_INFO("degree " << degree << " seed " << seed << " class " << name(which) << " ray " << i
                                     << ": " << found.size() << " hits, brute force " << truth.count);
           }
+          lines.push_back(ray);
+          firsts.push_back(found.empty() ? std::nullopt : std::optional(found.front()));
           for (std::size_t k = 0; k < found.size(); ++k) {
             backward = std::max(backward, backward_error(profile, ray, found[k]) / size);
             CHECK(found[k].normal.norm() == Approx(1).epsilon(1e-14));
@@ -169,6 +156,13 @@ TEST_CASE("every degree: hits lie on ray and surface, and are as many as brute f
             if (k > 0) CHECK(found[k].distance_mm >= found[k - 1].distance_mm);
           }
         }
+      std::vector<std::optional<Hit>> batch(lines.size());
+      probe->first_hits(lines, 0, batch);
+      for (std::size_t i = 0; i < lines.size(); ++i) {
+        INFO("degree " << degree << " seed " << seed << " ray " << i << " in a batch");
+        REQUIRE(batch[i].has_value() == firsts[i].has_value());
+        if (batch[i]) CHECK(batch[i]->distance_mm == firsts[i]->distance_mm);
+      }
       const auto& counts = dynamic_cast<const cad::MeridianProbe&>(*probe).counts();
       halved += counts.halved;
       exact += counts.exact;
@@ -281,6 +275,13 @@ TEST_CASE("probes on several threads give the same bits", "[meridian]") {
     for (std::uint64_t i = 0; i < count; ++i)
       for (const Hit& hit : probe->all_hits(random_ray(all_classes[i % 4], profile, {1, 2, 30}, 9, i), 0))
         numbers.insert(numbers.end(), {hit.distance_mm, hit.parameter, hit.normal.x(), hit.normal.z()});
+    std::vector<Ray> rays;
+    for (std::uint64_t i = 0; i < count; ++i)
+      rays.push_back(random_ray(all_classes[i % 4], profile, {1, 2, 30}, 9, i));
+    std::vector<std::optional<Hit>> hits(count);
+    probe->first_hits(rays, 0, hits);
+    for (const auto& hit : hits)
+      if (hit) numbers.insert(numbers.end(), {hit->distance_mm, hit->parameter, hit->normal.x()});
     return numbers;
   };
   const std::vector<double> alone = trace();
