@@ -80,7 +80,7 @@ void PhotonGrid::sort(std::vector<std::vector<StoredPhoton>*>& stretches) {
       x_[place] = photon.x_mm;
       y_[place] = photon.y_mm;
     }
-    *stretch = {};
+    std::vector<StoredPhoton>().swap(*stretch);  // assigning {} would keep its memory
   }
   starts_.pop_back();
 }

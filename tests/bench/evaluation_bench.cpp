@@ -2,6 +2,10 @@
 #include <malloc.h>
 #include <tbb/global_control.h>
 
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
 #include "cad/engines.h"
 #include "design/evaluator.h"
 #include "design/run.h"
@@ -14,6 +18,31 @@
 /// threads.
 
 using namespace catoptric;
+
+namespace {
+
+/// Bytes of all living objects, and the most there were at a time since it was last set.
+std::atomic<std::size_t> bytes_now{0}, bytes_at_most{0};
+
+void* counted(void* block) {
+  if (block == nullptr) throw std::bad_alloc();
+  const std::size_t now = bytes_now += malloc_usable_size(block);
+  std::size_t most = bytes_at_most;
+  while (now > most && !bytes_at_most.compare_exchange_weak(most, now)) {
+  }
+  return block;
+}
+
+void release(void* block) {
+  bytes_now -= malloc_usable_size(block);
+  std::free(block);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(std::malloc(size)); }
+void operator delete(void* block) noexcept { release(block); }
+void operator delete(void* block, std::size_t) noexcept { release(block); }
 
 namespace {
 
@@ -46,22 +75,11 @@ sim::PhotonOptions photons(const benchmark::State& state) {
   return options;
 }
 
-/// Memory in use, blocks of the system's included.
-double bytes_in_use() {
-  const auto info = mallinfo2();
-  return static_cast<double>(info.uordblks + info.hblkhd);
-}
-
 void trace(benchmark::State& state) {
   const auto threads = limit(state);
   const Stage stage;
   const sim::PhotonOptions options = photons(state);
-  const double before = bytes_in_use();
-  for (auto _ : state) {
-    const auto traced = sim::trace_photons(stage.scene, options, stage.margin_mm);
-    state.counters["bytes_a_stored_photon"] =
-        (bytes_in_use() - before) / static_cast<double>(traced.counts.stored);
-  }
+  for (auto _ : state) benchmark::DoNotOptimize(sim::trace_photons(stage.scene, options, stage.margin_mm));
   rate(state, "photons", static_cast<double>(options.photons));
 }
 
@@ -84,25 +102,32 @@ void map(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     auto copy = traced;
-    const double before = bytes_in_use() - 16 * static_cast<double>(traced.counts.stored);
     state.ResumeTiming();
     const sim::PhotonMap built(start_a().near_field, std::move(copy));
-    state.PauseTiming();
-    state.counters["bytes_a_stored_photon"] =
-        (bytes_in_use() - before) / static_cast<double>(traced.counts.stored);
-    state.ResumeTiming();
   }
   rate(state, "points", static_cast<double>(traced.counts.stored));
 }
 
-/// Emission to deposit in the map.
+/// Emission to deposit in the map; memory at the worst moment of both, and of the map when it is done.
 void whole_photons(benchmark::State& state) {
   const auto threads = limit(state);
   const Stage stage;
   const sim::PhotonOptions options = photons(state);
-  for (auto _ : state)
-    benchmark::DoNotOptimize(
-        sim::PhotonMap(start_a().near_field, sim::trace_photons(stage.scene, options, stage.margin_mm)));
+  std::size_t before = 0, after = 0;
+  std::uint64_t stored = 0;
+  for (auto _ : state) {
+    before = bytes_now;
+    bytes_at_most = before;
+    sim::TracedPhotons traced = sim::trace_photons(stage.scene, options, stage.margin_mm);
+    stored = traced.counts.stored;
+    const sim::PhotonMap built(start_a().near_field, std::move(traced));
+    after = bytes_now;
+  }
+  const auto a_photon = [&](std::size_t bytes) {
+    return static_cast<double>(bytes - before) / static_cast<double>(stored);
+  };
+  state.counters["most_bytes_a_photon"] = a_photon(bytes_at_most);
+  state.counters["bytes_a_photon"] = a_photon(after);
   rate(state, "photons", static_cast<double>(options.photons));
 }
 
