@@ -30,9 +30,9 @@ void add(BandwidthLadder& ladder, const EnergyLedger& energy, const PhotonCounts
 
 void look_at_map(const Scene& scene, std::span<const FieldSample> samples, const LadderOptions& options,
                  const PhotonOptions& photons, BandwidthLadder& ladder) {
-  const TracedPhotons traced = trace_photons(scene, photons, options.widest_radius_mm);
+  TracedPhotons traced = trace_photons(scene, photons, options.widest_radius_mm);
   add(ladder, traced.energy, traced.counts, 1.0 / static_cast<double>(options.sets));
-  const PhotonMap map(scene.near_field, traced);
+  const PhotonMap map(scene.near_field, std::move(traced));
   const auto look = [&](std::size_t level) {
     return map.estimate(samples, {Kernel::silverman, {}, radius_at(options, level)}).irradiance;
   };

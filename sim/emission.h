@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <span>
 
 namespace catoptric::sim {
 
@@ -12,9 +12,12 @@ enum class Sampler {
   sobol,   ///< Owen-scrambled Sobol points (randomised quasi-Monte-Carlo)
 };
 
-/// Most photons of one set: the Sobol points are made of 32 bits, and a stored photon's place in its tree is
+/// Most photons of one set: the Sobol points are made of 32 bits, and a stored photon's place in its map is
 /// a 32-bit number.
 inline constexpr std::uint64_t most_photons = (std::uint64_t{1} << 32) - 1;
+
+/// Most numbers that a source may ask for a photon.
+inline constexpr std::size_t most_emission_numbers = 4;
 
 /// The one number that keys all random numbers of a set of photons: another seed or another stream gives
 /// another, unrelated set.
@@ -26,17 +29,25 @@ std::uint64_t photon_key(std::uint64_t seed, std::uint64_t stream);
 ///        with the hash constants of Vegdahl 2021
 std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed);
 
-/// The emission's numbers for photon after photon, started anywhere: photon i gets the same numbers whoever
-/// asks and in whatever order the chunks are worked off. One per task.
+/// The emission's numbers by photon: photon i gets the same numbers whoever asks, in whatever order and for
+/// however many photons at once.
 class EmissionNumbers {
  public:
-  virtual ~EmissionNumbers() = default;
-  /// The numbers of the next photon, uniform in [0, 1).
-  virtual std::array<double, 4> next() = 0;
+  /// @in key of photon_key()
+  EmissionNumbers(Sampler sampler, std::uint64_t key);
 
-  /// @in key of photon_key(); first_photon <= most_photons
-  static std::unique_ptr<EmissionNumbers> starting_at(Sampler sampler, std::uint64_t key,
-                                                      std::uint64_t first_photon);
+  /// numbers[d][i] becomes the d-th number of photon first + i, uniform in [0, 1).
+  /// @in    rows of one length, at most most_emission_numbers of them; photons up to most_photons
+  /// @cost  about 10 ns a photon for "random", 1 ns a number for "sobol"
+  void draw(std::uint64_t first, std::span<const std::span<double>> numbers) const;
+
+ private:
+  void draw_random(std::uint64_t first, std::span<const std::span<double>> numbers) const;
+  void draw_sobol(std::uint64_t first, std::span<const std::span<double>> numbers) const;
+
+  Sampler sampler_;
+  std::uint64_t key_;
+  std::array<std::uint32_t, most_emission_numbers> seeds_{};
 };
 
 }  // namespace catoptric::sim

@@ -9,7 +9,7 @@ namespace catoptric::sim {
 /// The kernel as a function of t^2, which is what a search by squared distances has at hand; t^2 in [0, 1].
 /// A template, so that a loop over photons holds no switch.
 template <Kernel kernel>
-double kernel_of_square(double t_squared) {
+[[gnu::always_inline]] inline double kernel_of_square(double t_squared) {
   const double rest = 1 - t_squared;
   if constexpr (kernel == Kernel::silverman) return 3 * rest * rest;
   if constexpr (kernel == Kernel::epanechnikov) return 2 * rest;
@@ -22,9 +22,10 @@ double kernel_of_square(double t_squared) {
   }
 }
 
-/// Calls `action.template operator()<kernel>()` for the kernel named at run time.
+/// Calls `action.template operator()<kernel>()` for the kernel named at run time. Always inlined, so that a
+/// loop in the action is compiled for the caller's kind of processor.
 template <typename Action>
-auto with_kernel(Kernel kernel, const Action& action) {
+[[gnu::always_inline]] inline auto with_kernel(Kernel kernel, const Action& action) {
   switch (kernel) {
     case Kernel::epanechnikov:
       return action.template operator()<Kernel::epanechnikov>();

@@ -34,6 +34,13 @@ class Opening {
     return x * x + y * y < safe_square_mm2_;
   }
 
+  /// The same for a ray that stays in a meridian plane; without branches, for loops over several rays.
+  [[gnu::always_inline]] bool lets_out(double x_mm, double z_mm, double dx, double dz) const {
+    const double climb = outward_ * dz, height_mm = outward_ * (rim_z_mm_ - z_mm);
+    const double x = x_mm + height_mm / climb * dx;
+    return (climb > 0) & (height_mm > least_height_mm_) & (x * x < safe_square_mm2_);
+  }
+
  private:
   Opening() = default;
   double rim_z_mm_ = 0;

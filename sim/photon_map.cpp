@@ -5,134 +5,72 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <nanoflann.hpp>
 
-#include "base/contract.h"
 #include "base/tolerance.h"
 #include "base/units.h"
 #include "sim/edge_correction.h"
-#include "sim/kernel_shape.h"
+#include "sim/kernel_sum.h"
+#include "sim/photon_grid.h"
 
 namespace catoptric::sim {
 namespace {
 
-/// Points as the tree library wants to see them.
-struct PointCloud {
-  std::vector<std::array<double, 2>> points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t index, std::size_t axis) const { return points[index][axis]; }
-  template <typename Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<
-    nanoflann::L2_Simple_Adaptor<double, PointCloud, double, std::uint32_t>, PointCloud, 2, std::uint32_t>;
-
-/// Squared distances within a fixed radius. (All distances of the tree library are squares.)
-class WithinRadius {
- public:
-  WithinRadius(double radius_mm, std::vector<double>& squares)
-      : square_(radius_mm * radius_mm), squares_(squares) {
-    squares_.clear();
-  }
-  bool addPoint(double square, std::uint32_t) {
-    squares_.push_back(square);
-    return true;
-  }
-  double worstDist() const { return square_; }
-  bool full() const { return true; }
-  std::size_t size() const { return squares_.size(); }
-
- private:
-  double square_;
-  std::vector<double>& squares_;
-};
-
-/// Squared distances of the nearest N: up to 2 N candidates are collected, then the farther half is dropped,
-/// a constant number of steps a candidate. (The library's own result set keeps a sorted list, N moves a
-/// candidate; a heap takes log N and is half as fast as this.) Equal distances cannot make a difference,
-/// since all photons weigh the same.
-class Nearest {
- public:
-  Nearest(std::size_t count, std::vector<double>& squares) : count_(count), squares_(squares) {
-    squares_.clear();
-    squares_.reserve(2 * count);
-  }
-  bool addPoint(double square, std::uint32_t) {
-    if (!(square < worst_)) return true;
-    squares_.push_back(square);
-    if (squares_.size() == 2 * count_) keep_nearest();
-    return true;
-  }
-  double worstDist() const { return worst_; }
-  bool full() const { return true; }
-  std::size_t size() const { return squares_.size(); }
-
-  void keep_nearest() {
-    if (squares_.size() < count_) return;
-    const auto farthest = squares_.begin() + static_cast<std::ptrdiff_t>(count_ - 1);
-    std::nth_element(squares_.begin(), farthest, squares_.end());
-    worst_ = *farthest;
-    squares_.resize(count_);
-  }
-
- private:
-  std::size_t count_;
-  std::vector<double>& squares_;
-  double worst_ = std::numeric_limits<double>::max();
-};
-
-/// The photons of one side of the plane.
+/// The photons of one side of the plane: a grid for each band of the recorded area.
 class Side {
  public:
-  explicit Side(std::vector<std::array<double, 2>> points)
-      : cloud_{std::move(points)}, tree_(2, cloud_, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size)) {
-    // The leaves refer to stretches of an index list; with the points themselves in that order a leaf is one
-    // stretch of memory. The tree is built by one thread, so its order, and with it the order of every sum,
-    // depends on the photons alone.
-    std::vector<std::array<double, 2>> ordered(cloud_.points.size());
-    for (std::size_t i = 0; i < ordered.size(); ++i) {
-      ordered[i] = cloud_.points[tree_.vAcc[i]];
-      tree_.vAcc[i] = static_cast<std::uint32_t>(i);
-    }
-    cloud_.points = std::move(ordered);
+  Side() : grids_(photon_bands) {}
+
+  /// Takes a band's photons out of the chunks, in their order.
+  void build(std::size_t band, std::vector<StoredChunk>& chunks, BandedPhotons StoredChunk::*side) {
+    std::vector<std::vector<StoredPhoton>*> stretches;
+    stretches.reserve(chunks.size());
+    for (StoredChunk& chunk : chunks) stretches.push_back(&(chunk.*side)[band]);
+    grids_[band] = PhotonGrid(std::move(stretches));
   }
-  Side(const Side&) = delete;
-  Side& operator=(const Side&) = delete;
 
-  std::size_t size() const { return cloud_.points.size(); }
+  /// To be called once all bands are built.
+  void close() {
+    for (const PhotonGrid& grid : grids_) size_ += grid.size();
+  }
 
-  template <typename ResultSet>
-  void search(const Vector2& plane_mm, ResultSet&& result) const {
-    if (size() == 0) return;
-    tree_.findNeighbors(result, plane_mm.data(), nanoflann::SearchParams());
+  std::size_t size() const { return size_; }
+
+  void add_within(const StoredPhoton& centre, double radius_mm, KernelSum& sum) const {
+    for (const PhotonGrid& grid : grids_) grid.add_within(centre, radius_mm, sum);
+  }
+
+  /// Squared distances of the nearest `count` photons, at most all of them; nearest are not sorted.
+  /// @in  first_mm: where to start looking for the radius that holds them, any length > 0
+  void nearest(const StoredPhoton& centre, std::size_t count, double first_mm,
+               std::vector<double>& squares) const {
+    squares.clear();
+    const double radius = count < size() ? radius_with(centre, count, first_mm) : HUGE_VAL;
+    for (const PhotonGrid& grid : grids_) grid.append_squares(centre, radius, squares);
+    if (squares.size() <= count) return;
+    std::nth_element(squares.begin(), squares.begin() + static_cast<std::ptrdiff_t>(count - 1),
+                     squares.end());
+    squares.resize(count);
   }
 
  private:
-  static constexpr std::size_t leaf_size = 16;
-  PointCloud cloud_;
-  Tree tree_;
-};
+  /// A radius that holds at least `count` photons, and not many more where they lie evenly.
+  double radius_with(const StoredPhoton& centre, std::size_t count, double first_mm) const {
+    const auto holds = [&](double radius) {
+      std::size_t within = 0;
+      for (const PhotonGrid& grid : grids_) within += grid.surely_within(centre, radius);
+      return within >= count;
+    };
+    constexpr double step = 1.25;  // in area by half: what is then looked at in vain
+    double radius = first_mm;
+    while (!holds(radius) && radius < HUGE_VAL) radius *= step;
+    while (radius > first_mm * least_share && holds(radius / step)) radius /= step;
+    return radius;
+  }
 
-struct Sums {
-  double weight = 0, weight_squared = 0;
+  static constexpr double least_share = 1e-12;  // below that all photons are in one point
+  std::vector<PhotonGrid> grids_;
+  std::size_t size_ = 0;
 };
-
-Sums kernel_sums(Kernel kernel, const std::vector<double>& squares, double radius_mm) {
-  return with_kernel(kernel, [&]<Kernel k>() {
-    const double scale = 1 / (radius_mm * radius_mm);
-    Sums sums;
-    for (double square : squares) {
-      const double weight = kernel_of_square<k>(std::min(1.0, square * scale));
-      sums.weight += weight;
-      sums.weight_squared += weight * weight;
-    }
-    return sums;
-  });
-}
 
 }  // namespace
 
@@ -159,42 +97,53 @@ struct PhotonMap::Parts {
   RecordedArea area;
   double photon_power_w;
   double least_radius_mm;  ///< a bandwidth below this would be a division by nothing
-  Side front, back;
+  Side front = {}, back = {};
 
   const Side& side_of(const Vector3& normal) const { return normal.dot(field.normal()) > 0 ? front : back; }
 
-  /// Fills `squares` and gives the bandwidth.
-  double gather(const Side& side, const Vector2& at, const EstimateOptions& options,
-                std::vector<double>& squares) const {
+  void build(std::vector<StoredChunk> chunks) {
+    tbb::parallel_for(std::size_t{0}, 2 * photon_bands, [&](std::size_t i) {
+      if (i < photon_bands)
+        front.build(i, chunks, &StoredChunk::front);
+      else
+        back.build(i - photon_bands, chunks, &StoredChunk::back);
+    });
+    front.close();
+    back.close();
+  }
+
+  /// Sums the kernel over the photons round a point and gives the bandwidth; `squares` is room to work in.
+  KernelSum gather(const Side& side, const StoredPhoton& at, const EstimateOptions& options,
+                   std::vector<double>& squares, double& radius_mm) const {
     if (options.kernel_radius_mm) {
-      side.search(at, WithinRadius(*options.kernel_radius_mm, squares));
-      return *options.kernel_radius_mm;
+      radius_mm = *options.kernel_radius_mm;
+      KernelSum sum(options.kernel, at.x_mm, at.y_mm, radius_mm);
+      side.add_within(at, radius_mm, sum);
+      return sum;
     }
-    squares.clear();
-    if (side.size() == 0) return 0;
-    Nearest nearest(std::min(*options.neighbours, side.size()), squares);
-    side.search(at, nearest);
-    nearest.keep_nearest();
-    return std::max(least_radius_mm, std::sqrt(*std::max_element(squares.begin(), squares.end())));
+    const std::size_t count = std::min(*options.neighbours, side.size());
+    side.nearest(at, count, expected_radius_mm(count, side.size()), squares);
+    const double farthest = squares.empty() ? 0 : *std::max_element(squares.begin(), squares.end());
+    radius_mm = squares.empty() ? 0 : std::max(least_radius_mm, std::sqrt(farthest));
+    KernelSum sum(options.kernel, at.x_mm, at.y_mm, radius_mm);
+    sum.add_squares(squares.data(), squares.size());
+    return sum;
+  }
+
+  /// The radius that holds so many photons when they lie evenly on the recorded area.
+  double expected_radius_mm(std::size_t count, std::size_t size) const {
+    const double share = static_cast<double>(std::max<std::size_t>(count, 1)) /
+                         static_cast<double>(std::max<std::size_t>(size, 1));
+    return std::sqrt(share * area.half_width_mm) * std::sqrt(area.half_height_mm);
   }
 };
 
-namespace {
-
-std::vector<std::array<double, 2>> points_from(const TracedPhotons& traced, bool front) {
-  std::vector<std::array<double, 2>> points;
-  for (const Crossing& crossing : traced.crossings)
-    if (crossing.from_front() == front) points.push_back({crossing.x_mm, crossing.y_mm});
-  return points;
+PhotonMap::PhotonMap(const NearField& field, TracedPhotons traced)
+    : parts_(new Parts{
+          field, traced.area, traced.photon_power_w,
+          Tolerance::for_scale(std::hypot(field.half_width_mm(), field.half_height_mm())).length_mm}) {
+  parts_->build(std::move(traced.chunks));
 }
-
-}  // namespace
-
-PhotonMap::PhotonMap(const NearField& field, const TracedPhotons& traced)
-    : parts_(
-          new Parts{field, traced.area, traced.photon_power_w,
-                    Tolerance::for_scale(std::hypot(field.half_width_mm(), field.half_height_mm())).length_mm,
-                    Side(points_from(traced, true)), Side(points_from(traced, false))}) {}
 PhotonMap::~PhotonMap() = default;
 PhotonMap::PhotonMap(PhotonMap&&) noexcept = default;
 PhotonMap& PhotonMap::operator=(PhotonMap&&) noexcept = default;
@@ -207,15 +156,16 @@ MapEstimate PhotonMap::estimate(std::span<const FieldSample> samples, const Esti
                   std::vector<double>(samples.size()), std::vector<std::size_t>(samples.size())};
   const auto estimate_one = [&](std::size_t i, std::vector<double>& squares) {
     const Vector2 at = parts_->field.to_plane(samples[i].point_mm);
-    const double radius = parts_->gather(parts_->side_of(samples[i].normal), at, options, squares);
+    double radius = 0;
+    const KernelSum sum =
+        parts_->gather(parts_->side_of(samples[i].normal), {at.x(), at.y()}, options, squares, radius);
     out.kernel_radius_mm[i] = radius;
-    out.photons[i] = squares.size();
-    if (squares.empty()) return;
-    const Sums sums = kernel_sums(options.kernel, squares, radius);
+    out.photons[i] = sum.photons();
+    if (out.photons[i] == 0) return;
     const double scale = parts_->photon_power_w / (pi * radius * radius) /
                          kernel_mass_inside(options.kernel, radius, parts_->area, at);
-    out.irradiance[i] = scale * sums.weight;
-    out.noise[i] = scale * std::sqrt(sums.weight_squared);
+    out.irradiance[i] = scale * sum.weight();
+    out.noise[i] = scale * std::sqrt(sum.weight_squared());
   };
   constexpr std::size_t chunk = 16;
   tbb::parallel_for(std::size_t{0}, (samples.size() + chunk - 1) / chunk, [&](std::size_t part) {

@@ -38,8 +38,10 @@ struct MapEstimate {
 /// Photons on the near field's plane, searchable; each side of the plane has a map of its own.
 class PhotonMap {
  public:
-  /// @cost O(n log n), 0.13 us a photon for 1e5, 0.23 us for 1e6; about 28 bytes a photon, tree included
-  PhotonMap(const NearField& field, const TracedPhotons& traced);
+  /// Takes the photons over: band after band of the plane is sorted into a grid (see PhotonGrid) and its
+  /// share of `traced` freed, so that few bands are twice in memory.
+  /// @cost O(n), in parallel; about 17 bytes a photon, grid included
+  PhotonMap(const NearField& field, TracedPhotons traced);
   ~PhotonMap();
   PhotonMap(PhotonMap&&) noexcept;
   PhotonMap& operator=(PhotonMap&&) noexcept;
@@ -57,7 +59,7 @@ class PhotonMap {
   /// @out   never negative, exactly 0 without photons; the same bits for any number of threads
   /// @fails as check(options)
   /// @error bias grows like the square of the radius, for a smooth field; noise like 1 / (radius sqrt(n))
-  /// @cost  O(log n + photons within the radius) a sample, in parallel
+  /// @cost  O(photons within the radius) a sample, in parallel
   /// @from  paper eq. 8
   MapEstimate estimate(std::span<const FieldSample> samples, const EstimateOptions& options) const;
 

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <optional>
 
+#include "base/contract.h"
 #include "base/profile_hull.h"
 #include "base/units.h"
+#include "base/vector_clones.h"
 
 namespace catoptric::sim {
 namespace {
@@ -175,6 +177,24 @@ Eigen::Matrix3d frame_about(const Vector3& axis) {
   return frame;
 }
 
+struct BandNumbers {
+  double before_sr, whole_sr, width_rad, low, high;
+};
+
+/// Sets the cosines of the numbers that fall into a band or beyond it.
+CATOPTRIC_VECTOR_CLONES
+void set_band(const BandNumbers& band, std::size_t count, const double* __restrict first,
+              double* __restrict cosines) {
+  const double before = band.before_sr, whole = band.whole_sr, width = band.width_rad;
+  const double low = band.low, high = band.high;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double target = first[i] * whole;
+    const double inside = low + (target - before) / width;
+    const double cosine = inside < low ? low : inside > high ? high : inside;
+    cosines[i] = target >= before ? cosine : cosines[i];
+  }
+}
+
 }  // namespace
 
 void ProjectionMap::add_band(double low, double high, std::vector<Arc> arcs) {
@@ -259,6 +279,19 @@ Vector3 ProjectionMap::direction(double first, double second) const {
   const double azimuth = band.arcs[arc].first_rad + along;
   const double sine = std::sqrt((1 - cosine) * (1 + cosine));
   return frame_ * Vector3(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine);
+}
+
+bool ProjectionMap::about_axis() const {
+  return frame_ == Eigen::Matrix3d::Identity() &&
+         std::all_of(bands_.begin(), bands_.end(),
+                     [](const Band& band) { return band.arcs.size() == 1 && band.width_rad == 2 * pi; });
+}
+
+void ProjectionMap::cosines(std::span<const double> first, std::span<double> cosines) const {
+  CATOPTRIC_EXPECTS(about_axis() && first.size() == cosines.size());
+  for (const Band& band : bands_)
+    set_band({band.before_sr, solid_angle_sr_, band.width_rad, band.low, band.high}, first.size(),
+             first.data(), cosines.data());
 }
 
 bool ProjectionMap::contains(const Vector3& direction) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "base/profile.h"
@@ -33,6 +34,14 @@ class ProjectionMap {
   /// @in    numbers in [0, 1)
   /// @out   a unit vector
   Vector3 direction(double first, double second) const;
+
+  /// The cosines of the polar angle that `direction` gives for these first numbers, many at a time, for a map
+  /// about the axis: all of its azimuths belong to it, so that the second number is the azimuth in turns.
+  /// @in    about_axis(); numbers in [0, 1), as many as cosines
+  void cosines(std::span<const double> first, std::span<double> cosines) const;
+
+  /// Whether the polar axis is z and every band full: from a source on the axis, and for the whole sphere.
+  bool about_axis() const;
 
   /// Whether the direction belongs to the map, borders included.
   bool contains(const Vector3& direction) const;

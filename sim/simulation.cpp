@@ -48,8 +48,8 @@ std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample
 FieldEstimate simulate(const Scene& scene, std::span<const FieldSample> samples, const PhotonOptions& photons,
                        const EstimateOptions& estimate) {
   check(estimate);
-  const TracedPhotons traced = trace_photons(scene, photons, recording_margin_mm(scene.near_field, estimate));
-  MapEstimate reflected = PhotonMap(scene.near_field, traced).estimate(samples, estimate);
+  TracedPhotons traced = trace_photons(scene, photons, recording_margin_mm(scene.near_field, estimate));
+  MapEstimate reflected = PhotonMap(scene.near_field, std::move(traced)).estimate(samples, estimate);
   return {direct_field(scene, samples),
           std::move(reflected.irradiance),
           std::move(reflected.noise),

@@ -31,7 +31,7 @@ std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample
 /// @out   the same bits for any number of threads
 /// @fails InputError when both or neither bandwidth is set, or neighbours is 0; as trace_photons
 /// @error noise falls like photons^-1/2, bias grows like the square of the kernel radius
-/// @cost  photons times one or two intersections, a k-d tree of the stored photons, one query per sample
+/// @cost  photons times one or two intersections, a grid of the stored photons, one query per sample
 /// @from  paper section 4.4 and eq. 8
 FieldEstimate simulate(const Scene& scene, std::span<const FieldSample> samples, const PhotonOptions& photons,
                        const EstimateOptions& estimate);

@@ -21,6 +21,9 @@ class Source {
   /// @from  Jensen & Christensen 1995; paper section 4.4
   virtual double power_into_w(const ProjectionMap& map) const = 0;
 
+  /// How many numbers `emit` uses: the first so many of four.
+  virtual std::size_t emission_numbers() const { return 4; }
+
   /// One photon's path from the source into the directions of `map`.
   /// @in    numbers: uniform in [0, 1)
   /// @out   a continuous function of the numbers as far as the map allows, so that low-discrepancy points
@@ -41,6 +44,7 @@ class PointSource final : public Source {
   double power_w() const override { return power_w_; }
   Vector3 position_mm() const override { return position_mm_; }
   double power_into_w(const ProjectionMap& map) const override;
+  std::size_t emission_numbers() const override { return 2; }
   Ray emit(const ProjectionMap& map, const std::array<double, 4>& numbers) const override;
   /// @from  paper eq. 13, for any distance and tilt: power cos / (4 pi distance^2)
   double direct_w_per_mm2(const Vector3& point_mm, const Vector3& normal, Probe& mirror,

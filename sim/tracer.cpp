@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -13,8 +14,10 @@
 #include "base/tolerance.h"
 #include "sim/flight_counts.h"
 #include "sim/opening.h"
+#include "sim/plane_tracer.h"
 #include "sim/projection_map.h"
 #include "sim/scatter.h"
+#include "sim/turns.h"
 
 namespace catoptric::sim {
 namespace {
@@ -35,19 +38,21 @@ struct Flight {
   double lift_mm;
 };
 
-/// Traces one chunk of photons with a probe of its own.
+/// Traces one chunk of photons with a probe of its own, wave after wave: all photons on their way are
+/// intersected together, since engines that work on several rays at a time are faster for it.
 class PhotonTracer {
  public:
-  explicit PhotonTracer(const Flight& flight)
+  explicit PhotonTracer(Flight flight)
       : flight_(flight), field_(flight.scene.near_field), probe_(flight.scene.reflector.probe()) {}
 
   ChunkResult trace(std::uint64_t first, std::uint64_t last) {
     result_ = {};
-    const auto numbers = EmissionNumbers::starting_at(flight_.options.sampler, flight_.key, first);
-    for (std::uint64_t photon = first; photon < last; ++photon) {
-      const Fate fate = follow(photon, flight_.scene.source.emit(flight_.map, numbers->next()));
-      ++result_.counts.ended[static_cast<std::size_t>(fate)];
-    }
+    for (std::uint64_t next = first; next < last; next += photons_of_a_wave)
+      trace_wave(next, std::min(next + photons_of_a_wave, last));
+    // Photons that went on have been passed by later ones; each photon's own crossings keep their order.
+    const auto earlier = [](const Crossing& a, const Crossing& b) { return a.photon() < b.photon(); };
+    if (!std::is_sorted(result_.crossings.begin(), result_.crossings.end(), earlier))
+      std::stable_sort(result_.crossings.begin(), result_.crossings.end(), earlier);
     result_.counts.stored = result_.crossings.size();
     return std::move(result_);
   }
@@ -71,30 +76,72 @@ class PhotonTracer {
     int interactions = 0;
   };
 
-  Fate follow(std::uint64_t number, const Ray& ray) {
-    Photon photon(number, ray, flight_.key);
-    for (;;) {
-      const auto hit = next_hit(photon);
-      const auto arrival = meet_plane(photon, hit ? hit->distance_mm : HUGE_VAL);
-      const bool stops = arrival && field_.material() && field_.contains(arrival->plane_mm);
-      if (arrival && photon.touched) record(photon, *arrival);
-      if (!stops && !hit)
-        return !photon.touched ? Fate::missed : photon.received ? Fate::received : Fate::escaped;
-      if (photon.interactions == flight_.options.most_interactions) return Fate::cut_off;
-      ++photon.interactions;
-      ++result_.counts.interactions;
-      if (stops) {
-        if (!leave_field(photon, *arrival)) return photon.touched ? Fate::received : Fate::missed;
-      } else if (!leave_mirror(photon, *hit)) {
-        return Fate::absorbed;
+  /// Enough for engines that take several rays at a time, few enough to stay in the nearer caches.
+  static constexpr std::uint64_t photons_of_a_wave = 128;
+
+  void trace_wave(std::uint64_t first, std::uint64_t last) {
+    emit(first, last);
+    while (!photons_.empty()) {
+      find_hits();
+      std::size_t going_on = 0, answer = 0;
+      for (std::size_t i = 0; i < photons_.size(); ++i) {
+        const auto fate = advance(photons_[i], asked_[i] ? hits_[answer++] : no_hit_);
+        if (fate)
+          ++result_.counts.ended[static_cast<std::size_t>(*fate)];
+        else if (going_on++ != i)
+          photons_[going_on - 1] = photons_[i];
       }
+      photons_.erase(photons_.begin() + static_cast<std::ptrdiff_t>(going_on), photons_.end());
     }
   }
 
-  std::optional<Hit> next_hit(const Photon& photon) {
-    const bool starts_on_mirror = photon.touched && !photon.on_field;
-    if (starts_on_mirror && flight_.opening && flight_.opening->lets_out(photon.ray)) return std::nullopt;
-    return probe_->first_hit(photon.ray, flight_.lift_mm);
+  void emit(std::uint64_t first, std::uint64_t last) {
+    const std::size_t rows = flight_.scene.source.emission_numbers();
+    std::array<std::vector<double>, most_emission_numbers> numbers;
+    std::array<std::span<double>, most_emission_numbers> spans;
+    for (std::size_t row = 0; row < rows; ++row) {
+      numbers[row].resize(last - first);
+      spans[row] = numbers[row];
+    }
+    EmissionNumbers(flight_.options.sampler, flight_.key).draw(first, std::span(spans).first(rows));
+    photons_.reserve(last - first);
+    for (std::uint64_t photon = first; photon < last; ++photon) {
+      std::array<double, most_emission_numbers> own{};
+      for (std::size_t row = 0; row < rows; ++row) own[row] = numbers[row][photon - first];
+      photons_.emplace_back(photon, flight_.scene.source.emit(flight_.map, own), flight_.key);
+    }
+  }
+
+  /// Fills hits_, one for each photon whose ray is asked; none is where a photon certainly leaves.
+  void find_hits() {
+    rays_.clear();
+    asked_.clear();
+    for (const Photon& photon : photons_) {
+      const bool starts_on_mirror = photon.touched && !photon.on_field;
+      asked_.push_back(!(starts_on_mirror && flight_.opening && flight_.opening->lets_out(photon.ray)));
+      if (asked_.back()) rays_.push_back(photon.ray);
+    }
+    hits_.resize(rays_.size());
+    probe_->first_hits(rays_, flight_.lift_mm, hits_);
+  }
+
+  /// Takes a photon to its next surface.
+  /// @out its fate, or nothing when it goes on
+  std::optional<Fate> advance(Photon& photon, const std::optional<Hit>& hit) {
+    const auto arrival = meet_plane(photon, hit ? hit->distance_mm : HUGE_VAL);
+    const bool stops = arrival && field_.material() && field_.contains(arrival->plane_mm);
+    if (arrival && photon.touched) record(photon, *arrival);
+    if (!stops && !hit)
+      return !photon.touched ? Fate::missed : photon.received ? Fate::received : Fate::escaped;
+    if (photon.interactions == flight_.options.most_interactions) return Fate::cut_off;
+    ++photon.interactions;
+    ++result_.counts.interactions;
+    if (stops) {
+      if (!leave_field(photon, *arrival)) return photon.touched ? Fate::received : Fate::missed;
+    } else if (!leave_mirror(photon, *hit)) {
+      return Fate::absorbed;
+    }
+    return std::nullopt;
   }
 
   /// Where the photon's flight meets the near field's plane before `reach_mm`. The plane belongs to the
@@ -149,9 +196,14 @@ class PhotonTracer {
     return roulette(material, chance.uniform());
   }
 
-  const Flight& flight_;
+  Flight flight_;
   const NearField& field_;
   std::unique_ptr<Probe> probe_;
+  std::vector<Photon> photons_;           ///< on their way
+  std::vector<char> asked_;               ///< of each: whether its ray is asked of the probe in this wave
+  std::vector<Ray> rays_;                 ///< those that are
+  std::vector<std::optional<Hit>> hits_;  ///< the probe's answers
+  const std::optional<Hit> no_hit_;
   ChunkResult result_;
 };
 
@@ -183,11 +235,36 @@ struct PhotonFlights::Parts {
   ProjectionMap map;
   std::optional<Opening> opening;
   double lift_mm;
+  std::optional<PlaneScene> plane;  ///< where no photon leaves its meridian plane
+
+  ChunkResult trace(const PhotonOptions& options, std::uint64_t key, std::uint64_t first,
+                    std::uint64_t last) const {
+    if (plane) return trace_in_plane(options, key, first, static_cast<std::size_t>(last - first));
+    return PhotonTracer({scene, options, map, area, opening, key, lift_mm}).trace(first, last);
+  }
+
+  ChunkResult trace_in_plane(const PhotonOptions& options, std::uint64_t key, std::uint64_t first,
+                             std::size_t count) const {
+    std::array<double, photons_of_a_chunk> polar, azimuth, cosine, azimuth_cosine, azimuth_sine;
+    const auto row = [count](auto& array) { return std::span(array.data(), count); };
+    EmissionNumbers(options.sampler, key).draw(first, std::array{row(polar), row(azimuth)});
+    map.cosines(row(polar), row(cosine));
+    cosines_and_sines(row(azimuth), row(azimuth_cosine), row(azimuth_sine));
+    PlaneTracer tracer(*plane, options.most_interactions, key);
+    tracer.trace(first, {row(cosine), row(azimuth_cosine), row(azimuth_sine)});
+    return {std::move(tracer.crossings()), tracer.counts()};
+  }
 };
 
-PhotonFlights::PhotonFlights(const Scene& scene, const RecordedArea& area)
-    : parts_(new Parts{scene, area, emission_map(scene), Opening::of(scene.reflector.profile()),
-                       Tolerance::for_scale(scene.reflector.profile().diagonal_mm()).lift_mm}) {}
+PhotonFlights::PhotonFlights(const Scene& scene, const RecordedArea& area, FlightSpace space)
+    : parts_(new Parts{scene,
+                       area,
+                       emission_map(scene),
+                       Opening::of(scene.reflector.profile()),
+                       Tolerance::for_scale(scene.reflector.profile().diagonal_mm()).lift_mm,
+                       {}}) {
+  if (space == FlightSpace::as_needed && PlaneScene::possible(scene)) parts_->plane.emplace(scene, area);
+}
 PhotonFlights::~PhotonFlights() = default;
 
 std::uint64_t PhotonFlights::chunks(std::uint64_t photons) {
@@ -196,14 +273,12 @@ std::uint64_t PhotonFlights::chunks(std::uint64_t photons) {
 
 FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossings& take) const {
   check(options);
-  const Flight flight{parts_->scene,  options,         parts_->map,
-                      parts_->area,   parts_->opening, photon_key(options.seed, options.stream),
-                      parts_->lift_mm};
+  const std::uint64_t key = photon_key(options.seed, options.stream);
   const std::uint64_t photons = options.photons;
   SharedCounts counts;
   tbb::parallel_for(std::uint64_t{0}, chunks(photons), [&](std::uint64_t i) {
     const std::uint64_t first = i * photons_of_a_chunk;
-    ChunkResult chunk = PhotonTracer(flight).trace(first, std::min(first + photons_of_a_chunk, photons));
+    ChunkResult chunk = parts_->trace(options, key, first, std::min(first + photons_of_a_chunk, photons));
     counts.add(chunk.counts);
     take(i, std::move(chunk.crossings));
   });
@@ -211,21 +286,33 @@ FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossing
   return counts.totals(photons, parts_->scene.source.power_into_w(parts_->map));
 }
 
+StoredChunk store(std::span<const Crossing> crossings, const RecordedArea& area) {
+  const BandOf band_of(area);
+  std::array<std::array<std::size_t, photon_bands>, 2> counts{};
+  for (const Crossing& crossing : crossings) ++counts[crossing.from_front()][band_of(crossing.y_mm)];
+  StoredChunk chunk;
+  for (std::size_t band = 0; band < photon_bands; ++band) {
+    chunk.front[band].reserve(counts[1][band]);
+    chunk.back[band].reserve(counts[0][band]);
+  }
+  for (const Crossing& crossing : crossings)
+    (crossing.from_front() ? chunk.front : chunk.back)[band_of(crossing.y_mm)].push_back(
+        {crossing.x_mm, crossing.y_mm});
+  return chunk;
+}
+
 TracedPhotons trace_photons(const Scene& scene, const PhotonOptions& options, double margin_mm) {
   TracedPhotons traced;
   traced.area = RecordedArea::about(scene.near_field, margin_mm);
   check(options);
-  std::vector<std::vector<Crossing>> chunks(PhotonFlights::chunks(options.photons));
+  traced.chunks.resize(PhotonFlights::chunks(options.photons));
   const FlightTotals totals =
       PhotonFlights(scene, traced.area).fly(options, [&](std::uint64_t i, std::vector<Crossing>&& crossings) {
-        chunks[i] = std::move(crossings);
+        traced.chunks[i] = store(crossings, traced.area);
       });
   traced.photon_power_w = totals.photon_power_w;
   traced.energy = totals.energy;
   traced.counts = totals.counts;
-  traced.crossings.reserve(traced.counts.stored);
-  for (const auto& chunk : chunks)
-    traced.crossings.insert(traced.crossings.end(), chunk.begin(), chunk.end());
   return traced;
 }
 

@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sim/emission.h"
 #include "sim/projection_map.h"
 #include "sim/recorded_area.h"
 #include "sim/scene.h"
+#include "sim/stored_photons.h"
 
 namespace catoptric::sim {
 
@@ -39,7 +41,7 @@ struct PhotonCounts {
   std::uint64_t interactions = 0;  ///< with the mirror and with a real near field, all photons together
 };
 
-/// A photon that met the near field's plane after touching the mirror.
+/// A photon that met the near field's plane after touching the mirror, as it is handed over by its chunk.
 struct Crossing {
   double x_mm, y_mm;              ///< plane coordinates of the near field
   std::uint64_t photon_and_side;  ///< twice the photon's number, plus 1 when it arrived against the normal
@@ -48,12 +50,17 @@ struct Crossing {
   bool from_front() const { return (photon_and_side & 1) != 0; }
   bool operator==(const Crossing&) const = default;
 };
-static_assert(sizeof(Crossing) == 24, "a stored photon takes at most 32 bytes");
 
-/// Photons after their flight, in the order of their numbers.
+/// The stored photons of one chunk of photons, in the order of their numbers.
+struct StoredChunk {
+  BandedPhotons front, back;  ///< by the side they arrived at
+};
+StoredChunk store(std::span<const Crossing> crossings, const RecordedArea& area);
+
+/// Photons after their flight.
 struct TracedPhotons {
-  std::vector<Crossing> crossings;
-  RecordedArea area;  ///< all crossings of this area are there
+  std::vector<StoredChunk> chunks;  ///< in the order of the photons
+  RecordedArea area;                ///< all crossings of this area are there
   double photon_power_w = 0;
   EnergyLedger energy;
   PhotonCounts counts;
@@ -82,6 +89,9 @@ struct FlightTotals {
 /// from several threads and in any order.
 using TakeCrossings = std::function<void(std::uint64_t chunk, std::vector<Crossing>&& crossings)>;
 
+/// Whether photons that stay in their meridian planes are traced there, or in space like all others.
+enum class FlightSpace { as_needed, always_space };
+
 /// Photons ready to fly: what does not depend on their numbers is prepared once for any number of sets, and
 /// the crossings are handed over as they come, so that memory need not grow with the photons. After the
 /// mirror no intersection is looked for where its shape excludes one (see Opening).
@@ -89,7 +99,7 @@ class PhotonFlights {
  public:
   /// @in    what the scene borrows must outlive this
   /// @fails InputError for a bad mirror material
-  PhotonFlights(const Scene& scene, const RecordedArea& area);
+  PhotonFlights(const Scene& scene, const RecordedArea& area, FlightSpace space = FlightSpace::as_needed);
   ~PhotonFlights();
 
   /// Chunks of a set of so many photons.
@@ -108,7 +118,7 @@ class PhotonFlights {
 /// an invisible near field.
 /// @out   the same bits for any number of threads; photon i gets the same numbers whatever the engine
 /// @fails InputError for more than most_photons photons, most_interactions below 1, or a bad mirror material
-/// @cost  photons times one or two intersections; 24 bytes per crossing
+/// @cost  photons times one or two intersections; 17 bytes per crossing
 /// @from  paper section 4.4, stage 1
 TracedPhotons trace_photons(const Scene& scene, const PhotonOptions& options, double margin_mm);
 

@@ -76,9 +76,9 @@ double mean(std::span<const double> values) {
 Evaluation evaluate_by_photons(const Scene& scene, const Stage& stage,
                                std::span<const sim::FieldSample> samples, std::uint64_t stream) {
   const sim::EstimateOptions& full = scene.model.estimate;
-  const sim::TracedPhotons photons = sim::trace_photons(stage.scene, photon_options(scene, stream),
-                                                        sim::recording_margin_mm(scene.near_field, full));
-  const sim::PhotonMap map(scene.near_field, photons);
+  sim::TracedPhotons photons = sim::trace_photons(stage.scene, photon_options(scene, stream),
+                                                  sim::recording_margin_mm(scene.near_field, full));
+  const sim::PhotonMap map(scene.near_field, std::move(photons));
   sim::MapEstimate wide = map.estimate(samples, full);
   std::vector<double> sharp =
       extrapolated(wide.irradiance, map.estimate(samples, half_area(full)).irradiance);
@@ -120,11 +120,12 @@ std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Prof
             reflected_by_tubes(scene, stage.scene, samples, *scene.model.estimate.kernel_radius_mm))
       return sum(direct, *reflected);
   if (rung == sim::Rung::rings) return sum(direct, rings(scene, stage.scene, samples, stream).irradiance);
-  const sim::TracedPhotons photons =
+  sim::TracedPhotons photons =
       sim::trace_photons(stage.scene, photon_options(scene, stream),
                          sim::recording_margin_mm(scene.near_field, scene.model.estimate));
-  return sum(direct,
-             sim::PhotonMap(scene.near_field, photons).estimate(samples, scene.model.estimate).irradiance);
+  return sum(direct, sim::PhotonMap(scene.near_field, std::move(photons))
+                         .estimate(samples, scene.model.estimate)
+                         .irradiance);
 }
 
 Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,

@@ -5,6 +5,8 @@
 #include "sim/projection_map.h"
 #include "sim/simulation.h"
 #include "support/analytic_reflectors.h"
+#include "support/crossings.h"
+#include "support/emission_points.h"
 #include "support/flat_mirror.h"
 #include "support/smoothed_field.h"
 #include "support/statistics.h"
@@ -121,7 +123,7 @@ TEST_CASE("paraboloid: half the power is caught and lands inside r = 2 a") {
   const PointSource source({0, 0, 50}, power);
   // the photon on the rim lands on the field's edge: the disc is wider by what rounding may do
   const auto field = NearField::disc({0, 0, 0}, {0, 0, 1}, 100 * (1 + 1e-12));
-  const auto traced = trace_photons({source, mirror, {}, field}, photons(100'000), 0);
+  const auto traced = test::fly({source, mirror, {}, field}, photons(100'000), 0);
   CHECK(traced.energy.emitted_w == Approx(power / 2).epsilon(1e-12));
   CHECK(traced.energy.received_w == Approx(power / 2).epsilon(1e-12));
   CHECK(traced.counts.stored == 100'000);
@@ -131,11 +133,11 @@ TEST_CASE("paraboloid: every ray arrives at the radius of its flux tube") {
   const auto mirror = test::paraboloid();
   const PointSource source({0, 0, 50}, power);
   const auto field = NearField::disc({0, 0, 0}, {0, 0, 1}, 200);
-  const auto traced = trace_photons({source, mirror, {}, field}, photons(1000), 0);
+  const auto traced = test::fly({source, mirror, {}, field}, photons(1000), 0);
   const auto map = ProjectionMap::towards(mirror.profile(), {0, 0, 50});
-  const auto numbers = EmissionNumbers::starting_at(Sampler::random, photon_key(1, 0), 0);
+  const auto numbers = test::emission_points(Sampler::random, photon_key(1, 0), 0, 1000);
   for (const Crossing& crossing : traced.crossings) {
-    const auto number = numbers->next();
+    const auto& number = numbers[crossing.photon()];
     const double cosine = map.direction(number[0], number[1]).z();
     // r = 2 a tan(theta / 2); a cosine is good to 1e-16, which near the axis is 1e-8 of an angle
     CHECK(crossing.plane_mm().norm() ==
@@ -175,7 +177,7 @@ TEST_CASE("ellipsoid: all light passes the second focus") {
     const auto mirror = test::half_ellipsoid(0, radius, height);
     const PointSource source({0, 0, focus}, power);
     const auto field = NearField::disc({0, 0, -focus}, {0, 0, 1}, 1e-3 * height);
-    const auto traced = trace_photons({source, mirror, {}, field}, photons(20'000), 0);
+    const auto traced = test::fly({source, mirror, {}, field}, photons(20'000), 0);
     CHECK(traced.counts.stored == traced.counts.met_mirror);
     CHECK(traced.counts.met_mirror >= 19'900);  // the map may waste 0.5 %
     double farthest = 0;
@@ -191,7 +193,7 @@ TEST_CASE("closed sphere: interactions are a geometric series") {
   const auto field = NearField::disc({0, 0, -100}, {0, 0, 1}, 10);
   constexpr std::uint64_t count = 100'000;
   for (double reflectance : {0.3, 0.8, 0.95}) {
-    const auto traced = trace_photons({source, mirror, {reflectance, 0}, field}, photons(count), 0);
+    const auto traced = test::fly({source, mirror, {reflectance, 0}, field}, photons(count), 0);
     CHECK(traced.energy.absorbed_w == Approx(power).epsilon(1e-12));
     const double mean = static_cast<double>(traced.counts.interactions) / count;
     const double deviation = std::sqrt(reflectance / count) / (1 - reflectance);
@@ -206,8 +208,8 @@ TEST_CASE("sphere with a leak: the light that passes it is a geometric series to
   const PointSource source({0, 0, 20}, power);
   const auto field = NearField::disc({0, 0, -1e5}, {0, 0, 1}, 10);
   constexpr double reflectance = 0.6, transmittance = 0.1, count = 100'000;
-  const auto traced = trace_photons({source, mirror, {reflectance, transmittance}, field},
-                                    photons(static_cast<std::uint64_t>(count)), 0);
+  const auto traced = test::fly({source, mirror, {reflectance, transmittance}, field},
+                                photons(static_cast<std::uint64_t>(count)), 0);
   const double expected = transmittance / (1 - reflectance);
   const double deviation = std::sqrt(expected * (1 - expected) / count);
   CHECK(test::normal_p((traced.energy.escaped_w / power - expected) / deviation) > test::level);
@@ -218,8 +220,7 @@ TEST_CASE("a diffuse floor under a black dome: each photon that falls goes on to
   const PointSource source({0, 0, 20}, power);
   const auto floor = NearField::disc({0, 0, 0}, {0, 0, 1}, 50, Material{1, 0});
   constexpr double count = 100'000;
-  const auto traced =
-      trace_photons({source, dome, {0, 0}, floor}, photons(static_cast<std::uint64_t>(count)), 0);
+  const auto traced = test::fly({source, dome, {0, 0}, floor}, photons(static_cast<std::uint64_t>(count)), 0);
   CHECK(traced.energy.absorbed_w == Approx(power).epsilon(1e-12));
   CHECK(traced.counts.stored == 0);
   const double falls = 0.5 * (1 - 20 / std::hypot(20, 50));

@@ -6,6 +6,7 @@
 #include "cad/engines.h"
 #include "sim/simulation.h"
 #include "support/analytic_reflectors.h"
+#include "support/crossings.h"
 #include "support/flat_mirror.h"
 
 using namespace catoptric;
@@ -70,7 +71,7 @@ TEST_CASE(
   const auto paraboloid = test::paraboloid();
   const PointSource source({0, 0, 50}, power);
   const auto far = NearField::disc({0, 0, -1e8}, {0, 0, 1}, 120);
-  const auto beam = trace_photons({source, paraboloid, {}, far}, photons(2000), 0);
+  const auto beam = test::fly({source, paraboloid, {}, far}, photons(2000), 0);
   CHECK(beam.counts.stored == 2000);  // a ray error of 1e-13 moves it by 1e-5 mm
   const auto hemisphere = test::half_ellipsoid(50, 50, 50);
   const auto wide = NearField::disc({0, 0, -1e8}, {0, 0, 1}, 5e7);
@@ -114,8 +115,8 @@ TEST_CASE("engine meridian gives the field of the closed-form mirror, photon for
   for (const auto& mirror : {test::paraboloid(), test::half_ellipsoid(50, 60, 80)}) {
     const auto engine = cad::make_meridian_reflector(mirror.profile());
     for (const PointSource* each : {&source, &aside}) {
-      const auto a = trace_photons({*each, mirror, {0.8, 0}, field}, photons(20'000), 50);
-      const auto b = trace_photons({*each, *engine, {0.8, 0}, field}, photons(20'000), 50);
+      const auto a = test::fly({*each, mirror, {0.8, 0}, field}, photons(20'000), 50);
+      const auto b = test::fly({*each, *engine, {0.8, 0}, field}, photons(20'000), 50);
       // a photon on the rim or on the recorded area's edge may fall either way
       CHECK(std::abs(static_cast<double>(a.counts.stored) - static_cast<double>(b.counts.stored)) <= 2);
       std::size_t i = 0, j = 0, compared = 0;

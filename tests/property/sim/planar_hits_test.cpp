@@ -36,6 +36,29 @@ Profile wavy(int degree, int points, double weight_spread, std::mt19937_64& rand
   return Profile(degree, knots, std::move(poles));
 }
 
+/// Rays by the thousand against rays one by one.
+void same_first_hits(const PlanarMirror& section, const std::vector<PlanarRay>& rays, double beyond) {
+  const std::size_t count = rays.size();
+  std::vector<std::vector<double>> in(4), out(5, std::vector<double>(count));
+  for (const PlanarRay& ray : rays) {
+    in[0].push_back(ray.x_mm);
+    in[1].push_back(ray.z_mm);
+    in[2].push_back(ray.dx);
+    in[3].push_back(ray.dz);
+  }
+  section.first_hits({in[0], in[1], in[2], in[3]}, beyond, {out[0], out[1], out[2], out[3], out[4]});
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto hit = section.first_hit(rays[i], beyond);
+    INFO("ray " << i << " from (" << rays[i].x_mm << ", " << rays[i].z_mm << ")");
+    REQUIRE(out[0][i] == (hit ? hit->distance_mm : HUGE_VAL));
+    if (!hit) continue;
+    REQUIRE(out[1][i] == hit->x_mm);
+    REQUIRE(out[2][i] == hit->z_mm);
+    REQUIRE(std::abs(out[3][i] - hit->tx) <= 4e-16);  // a root and two divisions, in another order
+    REQUIRE(std::abs(out[4][i] - hit->tz) <= 4e-16);
+  }
+}
+
 void same_hits(const Profile& profile, int rays, std::mt19937_64& random) {
   const PlanarMirror section(profile);
   const auto engine = cad::make_meridian_reflector(profile);
@@ -44,8 +67,10 @@ void same_hits(const Profile& profile, int rays, std::mt19937_64& random) {
   std::uniform_real_distribution<double> across(-120, 120), up(-60, 160);
   std::vector<PlanarHit> hits;
   std::size_t met = 0;
+  std::vector<PlanarRay> together;
   for (int i = 0; i < rays; ++i) {
     const PlanarRay ray = towards(i % 3 == 0 ? 0.0 : across(random), up(random), across(random), up(random));
+    together.push_back(ray);
     section.all_hits(ray, 0, hits);
     const auto expected = probe->all_hits(lifted(ray), 0);
     INFO("ray " << i << " from (" << ray.x_mm << ", " << ray.z_mm << ") along (" << ray.dx << ", " << ray.dz
@@ -65,6 +90,19 @@ void same_hits(const Profile& profile, int rays, std::mt19937_64& random) {
     met += hits.size();
   }
   REQUIRE(met > static_cast<std::size_t>(rays) / 4);
+  same_first_hits(section, together, 0);
+  same_first_hits(section, together, Tolerance::for_scale(size).lift_mm);
+  // From the axis and to the right, where the image behind is left out; some to the vertex and the rim.
+  together.clear();
+  const MeridianPoint first = profile.at(profile.first_parameter()),
+                      last = profile.at(profile.last_parameter());
+  for (int i = 0; i < rays; ++i) {
+    PlanarRay ray = towards(0, up(random), std::abs(across(random)), up(random));
+    if (i % 7 == 0) ray = towards(0, 50, 1e-15 * i * first.r_mm + 1e-17 * i, first.z_mm);
+    if (i % 7 == 1) ray = towards(0, 50, last.r_mm, last.z_mm * (1 + 1e-16 * (i % 5 - 2)));
+    together.push_back(ray);
+  }
+  same_first_hits(section, together, 0);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "sim/projection_map.h"
 #include "sim/scatter.h"
 #include "support/analytic_reflectors.h"
+#include "support/emission_points.h"
 #include "support/statistics.h"
 
 using namespace catoptric;
@@ -142,8 +143,8 @@ TEST_CASE("every scrambled Sobol coordinate is uniform over the keys") {
     for (std::size_t axis = 0; axis < 4; ++axis) {
       std::vector<double> counts(64, 0), pairs(64, 0);
       for (std::uint64_t stream = 0; stream < 20'000; ++stream) {
-        const auto numbers = EmissionNumbers::starting_at(Sampler::sobol, photon_key(1, stream), photon);
-        const double first = numbers->next()[axis], second = numbers->next()[axis];
+        const auto numbers = test::emission_points(Sampler::sobol, photon_key(1, stream), photon, 2);
+        const double first = numbers[0][axis], second = numbers[1][axis];
         counts[bin(first, 64)] += 1;
         // digits 7 to 9 of one photon and 4 to 6 of the next: independent, too
         pairs[8 * bin(std::fmod(first * 64, 1.0), 8) + bin(std::fmod(second * 8, 1.0), 8)] += 1;

@@ -1,18 +1,22 @@
 #include "sim/emission.h"
 
+#include <boost/random/sobol.hpp>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <set>
 #include <vector>
+
+#include "base/random_stream.h"
+#include "base/units.h"
+#include "sim/turns.h"
+#include "support/emission_points.h"
 
 using namespace catoptric::sim;
 
 namespace {
 
 std::vector<std::array<double, 4>> draw(Sampler sampler, std::uint64_t key, std::uint64_t first, int count) {
-  const auto numbers = EmissionNumbers::starting_at(sampler, key, first);
-  std::vector<std::array<double, 4>> drawn;
-  for (int i = 0; i < count; ++i) drawn.push_back(numbers->next());
-  return drawn;
+  return catoptric::test::emission_points(sampler, key, first, static_cast<std::size_t>(count));
 }
 
 /// Whether 2^bits points put exactly one into every box of 2^-a by 2^-(bits - a).
@@ -75,4 +79,46 @@ TEST_CASE("scrambling keeps elementary intervals whole") {
 
 TEST_CASE("the last photon of the largest set can be drawn") {
   CHECK_NOTHROW(draw(Sampler::sobol, 1, most_photons - 1, 1));
+}
+
+TEST_CASE("Sobol numbers are the library's points, scrambled, anywhere in the sequence") {
+  constexpr std::uint64_t key = 42;
+  catoptric::RandomStream stream(key, catoptric::Purpose::scrambling, 0);
+  std::array<std::uint32_t, 4> seeds{};
+  for (std::uint32_t& seed : seeds) seed = static_cast<std::uint32_t>(stream.bits() >> 32);
+  const std::uint64_t half = most_photons / 2;
+  for (std::uint64_t first : {half / half, half / 2003, half - 1000, most_photons - 2000}) {
+    boost::random::sobol_engine<std::uint32_t, 32> engine(4);
+    engine.seed(static_cast<std::uint32_t>(first - 1));  // the library leaves the origin out
+    for (const auto& point : draw(Sampler::sobol, key, first, 2000))
+      for (std::size_t d = 0; d < 4; ++d)
+        REQUIRE(point[d] == (static_cast<double>(owen_scramble(engine(), seeds[d])) + 0.5) * 0x1p-32);
+  }
+}
+
+TEST_CASE("fewer numbers a photon are the first of all its numbers") {
+  for (Sampler sampler : {Sampler::random, Sampler::sobol}) {
+    const auto all = draw(sampler, 7, 900, 300);
+    std::vector<double> first(300), second(300);
+    EmissionNumbers(sampler, 7).draw(900, std::array{std::span(first), std::span(second)});
+    for (std::size_t i = 0; i < 300; ++i) REQUIRE((first[i] == all[i][0] && second[i] == all[i][1]));
+  }
+}
+
+TEST_CASE("cosines and sines of turns are exact to rounding, at every eighth and between") {
+  std::vector<double> turns{0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1, 0x1p-60, 1 - 0x1p-53};
+  for (std::uint64_t i = 0; i < 100'000; ++i)
+    turns.push_back(catoptric::RandomStream(1, catoptric::Purpose::test, i).uniform());
+  std::vector<double> cosines(turns.size()), sines(turns.size());
+  cosines_and_sines(turns, cosines, sines);
+  double worst = 0;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    const long double angle = 2 * 3.14159265358979323846264338327950288L * turns[i];
+    worst = std::max({worst, std::abs(static_cast<double>(std::cos(angle) - cosines[i])),
+                      std::abs(static_cast<double>(std::sin(angle) - sines[i]))});
+  }
+  CHECK(worst < 2 * 0x1p-53);  // rounding of the angle, of the polynomial's last steps and of the result
+  CHECK(cosines[0] == 1);
+  CHECK(sines[2] == 1);
+  CHECK(cosines[2] == 0);
 }
