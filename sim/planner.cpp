@@ -36,10 +36,9 @@ std::optional<std::string> objection_to_tubes(const Scene& scene, const ModelReq
 std::optional<std::string> objection_to_rings(const Scene& scene, const EstimateOptions& estimate) {
   if (auto objection = rings_objection(scene)) return objection;
   if (estimate.neighbours)
-    return "the estimate asks for a number of photons, and rings have a fixed bandwidth in r^2";
-  if (estimate.kernel != Kernel::silverman && estimate.kernel != Kernel::epanechnikov)
-    return fmt::format("rings are smoothed by the Silverman or Epanechnikov kernel, not by {}",
-                       name(estimate.kernel));
+    return "the estimate asks for a number of photons, and rings see none of them apart";
+  if (estimate.kernel != Kernel::silverman)
+    return fmt::format("rings are smoothed by the Silverman kernel, not by {}", name(estimate.kernel));
   return std::nullopt;
 }
 

@@ -88,6 +88,27 @@ void SortedRings::estimate(double s, RingKernel kernel, double bandwidth, RingDe
   }
 }
 
+RingStore::Places SortedRings::places(std::size_t set, double) const {
+  return {squares_[set], std::vector<double>(squares_[set].size(), 1.0)};
+}
+
+RingStore::Places CountedRings::places(std::size_t set, double widest) const {
+  Places places;
+  for (const Segment& segment : segments_) {
+    const std::size_t wanted = std::bit_floor(static_cast<std::size_t>(
+        std::clamp(widest * segment.per_mm2, 1.0, static_cast<double>(segment.bins))));
+    const double width = static_cast<double>(wanted) / segment.per_mm2;
+    const auto* count = counts_.data() + set * bins_ + segment.first;
+    for (std::size_t bin = 0; bin < segment.bins; bin += wanted) {
+      std::uint64_t sum = 0;
+      for (std::size_t i = 0; i < wanted; ++i) sum += (count++)->load(std::memory_order_relaxed);
+      places.squares.push_back(segment.low + (static_cast<double>(bin / wanted) + 0.5) * width);
+      places.photons.push_back(static_cast<double>(sum));
+    }
+  }
+  return places;
+}
+
 CountedRings::CountedRings(std::vector<double> cuts, std::size_t sets, std::size_t bins)
     : RingStore(std::move(cuts), sets) {
   for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {

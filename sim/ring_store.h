@@ -38,6 +38,13 @@ class RingStore {
   ///        smooth between cuts; counted photons add bin^2 / 24 times its second derivative
   virtual void estimate(double s, RingKernel kernel, double bandwidth, RingDensities& out) const = 0;
 
+  /// The photons of one set as rings: places in s and how many photons stand there.
+  /// @in    widest: of the range in s that one place may stand for
+  struct Places {
+    std::vector<double> squares, photons;
+  };
+  virtual Places places(std::size_t set, double widest) const = 0;
+
   double end() const { return cuts_.back(); }
   std::size_t sets() const { return sets_; }
 
@@ -62,6 +69,7 @@ class SortedRings final : public RingStore {
   double least_bandwidth() const override;
   std::size_t memory_bytes() const override;
   void estimate(double s, RingKernel kernel, double bandwidth, RingDensities& out) const override;
+  Places places(std::size_t set, double widest) const override;
 
  private:
   std::vector<std::vector<std::vector<double>>> parts_;  ///< by set and chunk
@@ -79,6 +87,7 @@ class CountedRings final : public RingStore {
   double least_bandwidth() const override;
   std::size_t memory_bytes() const override;
   void estimate(double s, RingKernel kernel, double bandwidth, RingDensities& out) const override;
+  Places places(std::size_t set, double widest) const override;
 
  private:
   struct Segment {

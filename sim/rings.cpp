@@ -10,12 +10,15 @@
 #include <cmath>
 #include <memory>
 
+#include "base/contract.h"
 #include "base/profile.h"
 #include "base/tolerance.h"
 #include "base/units.h"
+#include "sim/edge_correction.h"
 #include "sim/plane_flights.h"
 #include "sim/ring_bandwidth.h"
 #include "sim/ring_edges.h"
+#include "sim/ring_smoothing.h"
 #include "sim/ring_store.h"
 
 namespace catoptric::sim {
@@ -241,7 +244,8 @@ RingPhotons::RingPhotons(const Scene& scene, const RingsOptions& options) {
   const double cover_mm = cover_radius_mm(scene.near_field), cover = cover_mm * cover_mm;
   // Estimates at the field's edge look beyond it; a bandwidth to be chosen is narrower than a quarter.
   const double margin = options.bandwidth_mm2 ? std::min(*options.bandwidth_mm2, cover) : 0.25 * cover;
-  const double end = scene.near_field.material() ? cover : cover + margin;
+  const double out_mm = cover_mm + options.widest_kernel_radius_mm;
+  const double end = scene.near_field.material() ? cover : std::max(cover + margin, out_mm * out_mm);
   parts_.reset(new Parts{options, cover_mm, margin, nullptr, {}, {}});
   const Sets sets(scene, options);
   const auto cuts = cuts_for(scene, options, end);
@@ -274,6 +278,24 @@ RingsField RingPhotons::estimate(std::span<const double> radii_mm, double bandwi
   estimate_all(*parts_->store, parts_->powers, radii_mm, parts_->options, field);
   field.memory_bytes = parts_->store->memory_bytes();
   return field;
+}
+
+std::vector<double> RingPhotons::smoothed(std::span<const double> radii_mm, double kernel_radius_mm) const {
+  check_radii(parts_->cover_mm, radii_mm);
+  CATOPTRIC_EXPECTS(kernel_radius_mm > 0 && kernel_radius_mm <= parts_->options.widest_kernel_radius_mm);
+  const std::size_t sets = parts_->powers.size();
+  std::vector<double> mean(radii_mm.size(), 0.0);
+  for (std::size_t set = 0; set < sets; ++set) {
+    const auto field = smoothed_rings(parts_->store->places(set, widest_place_mm2(kernel_radius_mm)),
+                                      parts_->powers[set], radii_mm, kernel_radius_mm);
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += field[i] / static_cast<double>(sets);
+  }
+  const double end_mm = std::sqrt(parts_->store->end());
+  const RecordedArea area{NearField::Shape::disc, end_mm, end_mm};
+  for (std::size_t i = 0; i < mean.size(); ++i)
+    mean[i] /=
+        kernel_mass_inside(Kernel::silverman, kernel_radius_mm, area, {std::min(radii_mm[i], end_mm), 0});
+  return mean;
 }
 
 RingsField rings_field(const Scene& scene, std::span<const double> radii_mm, const RingsOptions& options) {

@@ -25,6 +25,7 @@ struct RingsOptions {
   RingKernel kernel = RingKernel::biweight;
   std::optional<double> bandwidth_mm2;  ///< half width of the kernel in r^2; nothing: chosen by the estimated
                                         ///< mean integrated squared error
+  double widest_kernel_radius_mm = 0;   ///< that `smoothed` will be asked for
   bool front = true;                    ///< light on the side that the near field's normal looks to
   bool in_plane = true;                 ///< trace in the meridian plane where photons stay in it
   RingStorage storage = RingStorage::counted;
@@ -86,6 +87,12 @@ class RingPhotons {
   RingsField estimate(std::span<const double> radii_mm);
   /// The same with another bandwidth, no wider than widest_bandwidth_mm2().
   RingsField estimate(std::span<const double> radii_mm, double bandwidth_mm2);
+
+  /// Irradiance at radii as a photon map with a fixed radius shows it on average: under the Silverman kernel
+  /// on discs, with the share of the kernel beyond a real field's edge made up for. Mean of the replicates,
+  /// W/mm^2.
+  /// @in    a radius no wider than widest_kernel_radius_mm of the options
+  std::vector<double> smoothed(std::span<const double> radii_mm, double kernel_radius_mm) const;
 
   /// Farther from the field's edge no photon was recorded.
   double widest_bandwidth_mm2() const;

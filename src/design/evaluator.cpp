@@ -42,17 +42,12 @@ std::optional<std::vector<double>> reflected_by_tubes(const Scene& scene, const 
   return std::move(tubes.irradiance);
 }
 
-/// Rings whose estimates look at the same area as the scene's kernel.
-sim::RingsField rings(const Scene& scene, const sim::Scene& stage, std::span<const sim::FieldSample> samples,
-                      std::uint64_t stream) {
+sim::RingPhotons ring_photons(const Scene& scene, const sim::Scene& stage, std::uint64_t stream) {
   sim::RingsOptions options;
   options.photons = photon_options(scene, stream);
   options.replicates = 1;
-  const double radius_mm = *scene.model.estimate.kernel_radius_mm;
-  options.bandwidth_mm2 = 0.5 * radius_mm * radius_mm;
-  options.kernel = scene.model.estimate.kernel == sim::Kernel::epanechnikov ? sim::RingKernel::epanechnikov
-                                                                            : sim::RingKernel::biweight;
-  return sim::rings_field(stage, sim::ring_radii_mm(scene.near_field, samples), options);
+  options.widest_kernel_radius_mm = *scene.model.estimate.kernel_radius_mm;
+  return {stage, options};
 }
 
 /// Half the kernel's area: half the neighbours, or the radius over root two.
@@ -93,15 +88,15 @@ Evaluation evaluate_by_photons(const Scene& scene, const Stage& stage,
 
 Evaluation evaluate_by_rings(const Scene& scene, const Stage& stage,
                              std::span<const sim::FieldSample> samples, std::uint64_t stream) {
-  sim::RingsField field = rings(scene, stage.scene, samples, stream);
-  const double radius_mm = field.kernel_radius_mm();
-  return {sim::Rung::rings,
-          sim::direct_field(stage.scene, samples),
-          std::move(field.irradiance),
-          std::move(field.debiased),
-          radius_mm,
-          field.energy,
-          field.counts};
+  const sim::RingPhotons photons = ring_photons(scene, stage.scene, stream);
+  const std::vector<double> radii = sim::ring_radii_mm(scene.near_field, samples);
+  const double radius_mm = *scene.model.estimate.kernel_radius_mm;
+  std::vector<double> wide = photons.smoothed(radii, radius_mm);
+  std::vector<double> sharp = extrapolated(wide, photons.smoothed(radii, std::sqrt(0.5) * radius_mm));
+  return {sim::Rung::rings, sim::direct_field(stage.scene, samples),
+          std::move(wide),  std::move(sharp),
+          radius_mm,        photons.energy(),
+          photons.counts()};
 }
 
 }  // namespace
@@ -119,7 +114,10 @@ std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Prof
     if (const auto reflected =
             reflected_by_tubes(scene, stage.scene, samples, *scene.model.estimate.kernel_radius_mm))
       return sum(direct, *reflected);
-  if (rung == sim::Rung::rings) return sum(direct, rings(scene, stage.scene, samples, stream).irradiance);
+  if (rung == sim::Rung::rings)
+    return sum(direct, ring_photons(scene, stage.scene, stream)
+                           .smoothed(sim::ring_radii_mm(scene.near_field, samples),
+                                     *scene.model.estimate.kernel_radius_mm));
   sim::TracedPhotons photons =
       sim::trace_photons(stage.scene, photon_options(scene, stream),
                          sim::recording_margin_mm(scene.near_field, scene.model.estimate));

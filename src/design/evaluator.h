@@ -29,8 +29,8 @@ struct Evaluation {
 };
 
 /// Evaluates a mirror with two bandwidths, whose difference shows the kernel's blur.
-/// @error the blur is extrapolated from two kernel areas (photons, tubes) or from kernels of two orders
-///        (rings): right where the field is smooth over a kernel, too small at jumps and caustics
+/// @error the blur is extrapolated from two kernel areas: right where the field is smooth over a kernel, too
+///        small at jumps and caustics
 /// @from  Richardson extrapolation of a kernel of second order: Schucany & Sommers 1977
 Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
                             std::span<const sim::FieldSample> samples, std::uint64_t stream);

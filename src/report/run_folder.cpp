@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <future>
+
 #include "base/atomic_file.h"
 #include "report/csv.h"
 #include "report/gnuplot.h"
@@ -26,9 +28,15 @@ void RunFolder::exchange(const std::string& name, const Profile& profile, const 
 std::vector<DrawnFigure> RunFolder::draw_all(const std::vector<NamedFigure>& figures) {
   const std::filesystem::path folder = path_ / "figures";
   prepare_output_folder(folder);
+  // One gnuplot a figure, all at once: they spend half of their time starting.
+  std::vector<std::future<Drawing>> drawings;
+  for (const NamedFigure& figure : figures)
+    drawings.push_back(std::async(std::launch::async,
+                                  [&figure, &folder] { return draw(figure.script, folder, figure.name); }));
   std::vector<DrawnFigure> drawn;
-  for (const NamedFigure& figure : figures) {
-    Drawing drawing = draw(figure.script, folder, figure.name);
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const NamedFigure& figure = figures[i];
+    Drawing drawing = drawings[i].get();
     if (!drawing.drawn() && (written_.notes.empty() || written_.notes.back() != drawing.sentence))
       written_.notes.push_back(drawing.sentence);
     drawn.push_back({figure.name, figure.caption, std::move(drawing.svg_text)});

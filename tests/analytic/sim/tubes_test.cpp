@@ -85,14 +85,14 @@ TEST_CASE("the kernel's mean over a ring is that of a fine sum", "[tubes]") {
             0.0, last, 8, 1e-14);
         INFO("h " << h << ", r " << r << ", ring " << ring);
         // Near the edge r - ring itself is known to a rounding of 1e4: 1e-12 of h.
-        const RingKernel kernel = ring_kernel(r / h, ring / h);
+        const RingMean kernel = kernel_ring_mean(r / h, ring / h);
         CHECK(3 * kernel.value == Approx(sum / pi).epsilon(1e-11).margin(1e-12));
         // Its derivative by the ring's radius, by Richardson's differences, away from the kernel's edges.
         const double at = r / h, q = ring / h, step = 1e-3;
         if (std::min({q, std::abs(q - at - 1), std::abs(q - std::abs(at - 1))}) < 2 * step || q > 100)
           continue;
         const auto difference = [&](double d) {
-          return (ring_kernel(at, q + d).value - ring_kernel(at, q - d).value) / (2 * d);
+          return (kernel_ring_mean(at, q + d).value - kernel_ring_mean(at, q - d).value) / (2 * d);
         };
         CHECK(kernel.slope ==
               Approx((4 * difference(step / 2) - difference(step)) / 3).epsilon(1e-7).margin(1e-9));
