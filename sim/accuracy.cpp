@@ -129,7 +129,8 @@ class PhotonStages {
   /// Photons of a set that should prove the accuracy; 0 when no more may be spent.
   std::uint64_t forecast(std::uint64_t photons) const {
     const auto& stages = field_.stages;
-    double slope = 0.5;
+    // Before it has been seen: of random photons in kernels of their own choice, and of even ones.
+    double slope = request_.photons.sampler == Sampler::sobol ? 0.7 : 0.4;
     if (stages.size() > 1) {
       const AccuracyStage &a = stages[stages.size() - 2], &b = stages.back();
       const double gained = std::log(a.error95_rel / b.error95_rel);

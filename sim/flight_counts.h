@@ -27,20 +27,26 @@ class SharedCounts {
     stored_ += part.stored;
   }
 
-  /// Totals of `photons` photons that share `emitted_w`.
-  FlightTotals totals(std::uint64_t photons, double emitted_w) const {
+  /// Totals of `photons` photons that share `emitted_w`. From the first meeting with the mirror on, each
+  /// carries what survives there of its power; the rest is absorbed.
+  FlightTotals totals(std::uint64_t photons, double emitted_w, const Material& mirror) const {
     FlightTotals totals;
+    const double share = surviving_share(mirror);
+    const double before_w = photons > 0 ? emitted_w / static_cast<double>(photons) : 0;
     totals.energy.emitted_w = photons > 0 ? emitted_w : 0;
-    totals.photon_power_w = photons > 0 ? emitted_w / static_cast<double>(photons) : 0;
+    totals.photon_power_w = share * before_w;
     totals.counts = {photons, met_mirror_, stored_, interactions_};
-    const auto power_of = [&](Fate fate) {
-      return static_cast<double>(ended_[static_cast<std::size_t>(fate)]) * totals.photon_power_w;
-    };
-    totals.energy.missed_w = power_of(Fate::missed);
-    totals.energy.absorbed_w = power_of(Fate::absorbed);
-    totals.energy.received_w = power_of(Fate::received);
-    totals.energy.escaped_w = power_of(Fate::escaped);
-    totals.energy.cut_off_w = power_of(Fate::cut_off);
+    const auto count = [&](Fate fate) { return ended_[static_cast<std::size_t>(fate)].load(); };
+    const auto power = [&](std::uint64_t n) { return static_cast<double>(n) * totals.photon_power_w; };
+    // Of those cut off, some had met nothing but the near field.
+    const std::uint64_t untouched = photons - count(Fate::missed) - met_mirror_;
+    totals.energy.missed_w = static_cast<double>(count(Fate::missed)) * before_w;
+    totals.energy.absorbed_w = power(count(Fate::absorbed)) +
+                               static_cast<double>(met_mirror_.load()) * (before_w - totals.photon_power_w);
+    totals.energy.received_w = power(count(Fate::received));
+    totals.energy.escaped_w = power(count(Fate::escaped));
+    totals.energy.cut_off_w =
+        power(count(Fate::cut_off) - untouched) + static_cast<double>(untouched) * before_w;
     return totals;
   }
 

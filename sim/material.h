@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "base/errors.h"
@@ -23,6 +24,25 @@ constexpr Interaction roulette(const Material& material, double number) {
   if (number < material.reflectance) return Interaction::reflected;
   if (number < material.reflectance + material.transmittance) return Interaction::transmitted;
   return Interaction::absorbed;
+}
+
+/// The share of the light that goes on from a surface.
+constexpr double surviving_share(const Material& material) {
+  return std::min(1.0, material.reflectance + material.transmittance);
+}
+
+/// What becomes of a photon at its first meeting with the mirror. Every photon that is recorded has met it
+/// once, so the share that survives there is the same for all: their power carries it (FlightTotals), and
+/// chance is left with nothing but to reflect or transmit. A mirror that does only one of them needs no
+/// chance at all, and evenly spread photons stay even.
+/// @in    number: gives a uniform number when asked
+template <typename Number>
+Interaction first_interaction(const Material& mirror, const Number& number) {
+  const double share = surviving_share(mirror);
+  if (!(share > 0)) return Interaction::absorbed;
+  if (!(mirror.transmittance > 0)) return Interaction::reflected;
+  if (!(mirror.reflectance > 0)) return Interaction::transmitted;
+  return number() < mirror.reflectance / share ? Interaction::reflected : Interaction::transmitted;
 }
 
 /// What keeps these numbers from being a material, in words, or nothing.

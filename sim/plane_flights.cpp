@@ -79,7 +79,8 @@ FlightTotals PlaneFlights::fly(const PhotonOptions& options, bool front, const T
       if (crossing.from_front() == front) squares.push_back(crossing.plane_mm().squaredNorm());
     take(i, squares);
   });
-  return counts.totals(photons, parts_->scene.scene.source.power_into_w(parts_->map));
+  return counts.totals(photons, parts_->scene.scene.source.power_into_w(parts_->map),
+                       parts_->scene.scene.mirror);
 }
 
 }  // namespace catoptric::sim

@@ -184,7 +184,7 @@ Fate PlaneTracer::settle(std::uint64_t number, const Block& block, std::size_t i
   if (!(block.distance[i] < HUGE_VAL)) return Fate::missed;
   ++counts_.met_mirror;
   ++counts_.interactions;
-  const Interaction interaction = decide(scene_.scene.mirror, photon);
+  const Interaction interaction = decide_first(photon);
   if (interaction == Interaction::absorbed) return Fate::absorbed;
   const bool reflected = interaction == Interaction::reflected;
   if (reflected && block.leaves[i] != 0) {
@@ -241,12 +241,13 @@ std::optional<PlaneTracer::Arrival> PlaneTracer::meet_plane(const Photon& photon
 }
 
 bool PlaneTracer::leave_mirror(Photon& photon, const PlanarHit& hit) {
-  if (!photon.touched) ++counts_.met_mirror;
+  const bool first = !photon.touched;
+  if (first) ++counts_.met_mirror;
   photon.touched = true;
   photon.on_field = false;
   photon.ray.x_mm = hit.x_mm;
   photon.ray.z_mm = hit.z_mm;
-  const Interaction interaction = decide(scene_.scene.mirror, photon);
+  const Interaction interaction = first ? decide_first(photon) : decide(scene_.scene.mirror, photon);
   if (interaction == Interaction::reflected) {
     const double along = 2 * (photon.ray.dx * hit.tx + photon.ray.dz * hit.tz);
     const double dx = along * hit.tx - photon.ray.dx, dz = along * hit.tz - photon.ray.dz;
@@ -257,10 +258,18 @@ bool PlaneTracer::leave_mirror(Photon& photon, const PlanarHit& hit) {
   return interaction != Interaction::absorbed;
 }
 
+double PlaneTracer::chance_of(Photon& photon) const {
+  if (!photon.chance) photon.chance.emplace(key_, Purpose::interaction, photon.number);
+  return photon.chance->uniform();
+}
+
+Interaction PlaneTracer::decide_first(Photon& photon) const {
+  return first_interaction(scene_.scene.mirror, [&] { return chance_of(photon); });
+}
+
 Interaction PlaneTracer::decide(const Material& material, Photon& photon) const {
   if (material.reflectance >= 1) return Interaction::reflected;
-  if (!photon.chance) photon.chance.emplace(key_, Purpose::interaction, photon.number);
-  return roulette(material, photon.chance->uniform());
+  return roulette(material, chance_of(photon));
 }
 
 }  // namespace catoptric::sim

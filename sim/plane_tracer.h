@@ -62,6 +62,8 @@ class PlaneTracer {
   std::optional<Arrival> meet_plane(const Photon& photon, double reach_mm) const;
   void record(Photon& photon, const Arrival& arrival);
   bool leave_mirror(Photon& photon, const PlanarHit& hit);
+  double chance_of(Photon& photon) const;
+  Interaction decide_first(Photon& photon) const;
   Interaction decide(const Material& material, Photon& photon) const;
 
   const PlaneScene& scene_;

@@ -166,11 +166,14 @@ class PhotonTracer {
 
   /// @out false when the photon is absorbed
   bool leave_mirror(Photon& photon, const Hit& hit) {
-    if (!photon.touched) ++result_.counts.met_mirror;
+    const bool first = !photon.touched;
+    if (first) ++result_.counts.met_mirror;
     photon.touched = true;
     photon.on_field = false;
     photon.ray.origin_mm = hit.point_mm;
-    const Interaction interaction = decide(flight_.scene.mirror, photon.chance);
+    const Material& mirror = flight_.scene.mirror;
+    const Interaction interaction = first ? first_interaction(mirror, [&] { return photon.chance.uniform(); })
+                                          : decide(mirror, photon.chance);
     if (interaction == Interaction::reflected)
       photon.ray.direction = reflect(photon.ray.direction, hit.normal);
     return interaction != Interaction::absorbed;
@@ -283,7 +286,7 @@ FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossing
     take(i, std::move(chunk.crossings));
   });
 
-  return counts.totals(photons, parts_->scene.source.power_into_w(parts_->map));
+  return counts.totals(photons, parts_->scene.source.power_into_w(parts_->map), parts_->scene.mirror);
 }
 
 StoredChunk store(std::span<const Crossing> crossings, const RecordedArea& area) {

@@ -80,7 +80,7 @@ ProjectionMap emission_map(const Scene& scene);
 
 /// What is known of a set of photons after their flight, without the crossings.
 struct FlightTotals {
-  double photon_power_w = 0;
+  double photon_power_w = 0;  ///< of one that has met the mirror: what survives its first meeting
   EnergyLedger energy;
   PhotonCounts counts;
 };

@@ -150,10 +150,10 @@ TEST_CASE("a search that runs out of evaluations ends with 5 and writes its file
 
 TEST_CASE("an interrupted search ends with 130 and leaves its best so far") {
   const TemporaryFolder folder;
-  const Ended ended =
-      run_shell("timeout --signal=INT --preserve-status 2 '" + program + "' design '" + paper +
-                "start_a.toml' --set model.photons=400000 --set model.replicates=2 --out '" +
-                (folder / "a").string() + "'");
+  const Ended ended = run_shell(
+      "timeout --signal=INT --preserve-status 2 '" + program + "' design '" + paper +
+      "start_a.toml' --set model.rung=photons --set model.photons=10000000 --set model.replicates=2 --out '" +
+      (folder / "a").string() + "'");
   INFO(ended.output);
   CHECK(ended.code == 130);
   CHECK(parsed(folder / "a" / "result.json")["outcome"] == "interrupted");

@@ -43,7 +43,7 @@ Comparison compare(const Profile& tubes_profile, const Profile& photons_profile,
   const auto samples = along_radius(24);
   TubesOptions options;
   options.kernel_radius_mm = kernel_mm;
-  options.tolerance_w_per_mm2 = from_w_per_m2(1e-4);  // far below the photons' noise
+  options.tolerance_w_per_mm2 = from_w_per_m2(1e-5);  // far below the photons' noise
   options.most_rays = 20'000;
   const auto lit = cad::make_meridian_reflector(tubes_profile);
   const TubesField tubes = tubes_field(Scene{source, *lit, material, field}, samples, options);
@@ -61,7 +61,10 @@ Comparison compare(const Profile& tubes_profile, const Profile& photons_profile,
     double mean = 0, square = 0;
     for (const auto& one : replicates) mean += one[i] / streams;
     for (const auto& one : replicates) square += (one[i] - mean) * (one[i] - mean) / (streams - 1.0);
-    const double off = std::abs(mean - tubes.irradiance[i]);
+    // Where the rays allowed did not suffice, the tubes say how far off they may be.
+    const bool met = tubes.error_w_per_mm2 <= options.tolerance_w_per_mm2;
+    const double off =
+        std::max(0.0, std::abs(mean - tubes.irradiance[i]) - (met ? 0.0 : tubes.error_w_per_mm2));
     INFO("r " << samples[i].point_mm.head<2>().norm() << " tubes " << to_w_per_m2(tubes.irradiance[i])
               << " photons " << to_w_per_m2(mean) << " +- " << to_w_per_m2(std::sqrt(square / streams)));
     CAPTURE(tubes.rays);
