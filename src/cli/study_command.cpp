@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <future>
 
 #include "base/atomic_file.h"
 #include "cli/commands.h"
@@ -13,20 +14,17 @@
 namespace catoptric::cli {
 namespace {
 
-/// One run with its files. A run that fails is a row of the table, not the end of the study.
+/// What one run came to. A run that fails is a row of the table, not the end of the study.
 report::StudyRow run_one(const design::Study& study, const design::StudyRun& run, design::Scene scene,
                          const std::filesystem::path& folder, const design::RunControl& control) {
   report::StudyRow row{run, std::move(scene), {}, {}, ""};
   const design::ThreadLimit limit(row.scene->threads);
   try {
     prepare_output_folder(folder);
-    if (study.designs) {
+    if (study.designs)
       row.designed = design::run_design(*row.scene, control);
-      report::write_design(*row.scene, *row.designed, folder);
-    } else {
+    else
       row.simulated = design::run_simulation(*row.scene, control);
-      report::write_simulation(*row.scene, *row.simulated, folder);
-    }
   } catch (const IoError&) {
     throw;
   } catch (const Error& error) {
@@ -35,12 +33,32 @@ report::StudyRow run_one(const design::Study& study, const design::StudyRun& run
   return row;
 }
 
+/// A run's files; what could not be exchanged becomes the row's error.
+/// @fails IoError
+void write_files(report::StudyRow& row, const std::filesystem::path& folder) {
+  try {
+    if (row.designed) report::write_design(*row.scene, *row.designed, folder);
+    if (row.simulated) report::write_simulation(*row.scene, *row.simulated, folder);
+  } catch (const IoError&) {
+    throw;
+  } catch (const Error& error) {
+    row.error = error.what();
+  }
+}
+
+bool accuracy_missed(const report::StudyRow& row) {
+  if (!row.designed && !row.simulated) return false;
+  const auto& accuracy = (row.designed ? row.designed->best : row.simulated->mirror).judgement.accuracy;
+  return accuracy && !accuracy->proven;
+}
+
 ExitCode exit_code(const std::vector<report::StudyRow>& rows, bool interrupted) {
   if (interrupted) return ExitCode::interrupted;
   ExitCode code = ExitCode::done;
   for (const report::StudyRow& row : rows) {
     if (!row.error.empty()) return ExitCode::geometry_or_exchange;
     if (row.designed && row.designed->search.ending != optim::Ending::converged) code = ExitCode::unconverged;
+    if (accuracy_missed(row)) code = ExitCode::unconverged;
   }
   return code;
 }
@@ -59,10 +77,16 @@ ExitCode study_command(const CommonOptions& options) {
   ProgressLine line(options.quiet, scenes.front().search.metric == design::Metric::rmse ? "W/m^2" : "");
   const design::RunControl control{&stop_on_signal(), [&](const design::Progress& p) { line.show(p); }};
   std::vector<report::StudyRow> rows;
+  rows.reserve(list.runs.size());  // a row stays where it is while its files are written
+  std::future<void> writing;       // of the run before: plots and exchange need no light
   for (std::size_t i = 0; i < list.runs.size() && !control.stopped(); ++i) {
     line.set_prefix(fmt::format("run {} ({} of {})", list.runs[i].name, i + 1, list.runs.size()));
-    rows.push_back(run_one(list, list.runs[i], std::move(scenes[i]), out / list.runs[i].name, control));
+    const std::filesystem::path folder = out / list.runs[i].name;
+    rows.push_back(run_one(list, list.runs[i], std::move(scenes[i]), folder, control));
+    if (writing.valid()) writing.get();
+    writing = std::async(std::launch::async, [&row = rows.back(), folder] { write_files(row, folder); });
   }
+  if (writing.valid()) writing.get();
   line.finish();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const auto files = report::write_study(list, rows, seconds, out);
