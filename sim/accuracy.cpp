@@ -208,6 +208,10 @@ AccurateField by_tubes(const Scene& scene, std::span<const FieldSample> samples,
   field.rung = Rung::tubes;
   TubesOptions options;
   options.most_interactions = request.photons.most_interactions;
+  // The field is at least the direct light, so that a share of it is a share of the field allowed too.
+  constexpr double share = 0.1;
+  const std::vector<double> dark(direct.size(), 0.0);
+  options.pointwise_tolerance_w_per_mm2 = share * request.relative * root_mean_square(direct, dark);
   TubesField tubes = tubes_field(scene, samples, options);
   field.rays = tubes.rays;
   field.reflected = std::move(tubes.irradiance);
