@@ -19,13 +19,17 @@ void print_plan(const char* title, const sim::Plan& plan) {
 ExitCode explain_command(const CommonOptions& options) {
   const design::Scene scene = design::read_scene(options.input, options.overrides());
   const Profile profile = design::start_profile(scene);
-  print_plan("simulate computes the light so:", design::simulation_plan(scene, profile));
+  const sim::Plan shown = design::simulation_plan(scene, profile);
+  print_plan("simulate computes the light so:", shown);
   if (scene.accuracy_rel)
     fmt::print("  {:<22}  photons and bandwidth are found until the relative error is at most {:g} (95 %)\n",
                "accuracy", *scene.accuracy_rel);
   if (!scene.variables.empty()) {
-    fmt::print("\n");
-    print_plan("design and landscape search so:", design::make_plan(scene, profile));
+    const sim::Plan searched = design::make_plan(scene, profile);
+    if (searched.rung == shown.rung)
+      fmt::print("\ndesign and landscape search with the same rung, {}\n", name(searched.rung));
+    else
+      print_plan("\ndesign and landscape search so:", searched);
     fmt::print(
         "  {:<22}  photons on fresh random numbers, with noise and bias, whatever the rung of the search\n",
         "verdict");
