@@ -16,9 +16,9 @@
 namespace catoptric::sim {
 namespace {
 
-constexpr std::uint64_t sets = 4;              ///< fewer give no spread, more waste the points' evenness
-constexpr std::uint64_t first_photons = 2048;  ///< of a set: some hundred microseconds, enough for a forecast
-constexpr std::size_t most_probes = 2048;      ///< samples by which the error is judged
+constexpr std::uint64_t sets = 4;             ///< fewer give no spread, more waste the points' evenness
+constexpr std::uint64_t first_photons = 512;  ///< of a set: enough for a forecast
+constexpr std::size_t most_probes = 2048;     ///< samples by which the error is judged
 
 double root_mean_square(std::span<const double> a, std::span<const double> b) {
   std::vector<double> squares(a.size());

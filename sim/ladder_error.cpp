@@ -93,6 +93,12 @@ std::optional<Decay> decay_of(const std::vector<Change>& changes, int order) {
     constexpr double slowest_smooth = 0.6;
     decay = Decay{k, share > slowest_smooth ? jump_share : std::max(share, smooth_share(order))};
   }
+  // The next change does not stand out; what it can be at most bounds the share too.
+  if (decay && decay->level + 1 < changes.size()) {
+    const Change& next = changes[decay->level + 1];
+    const double most = std::hypot(next.seen, next.hidden) / changes[decay->level].seen;
+    decay->share = std::max(smooth_share(order), std::min(decay->share, most));
+  }
   return decay;
 }
 
