@@ -8,6 +8,7 @@
 #include "base/errors.h"
 #include "base/profile.h"
 #include "base/units.h"
+#include "sim/clear_view.h"
 #include "sim/opening.h"
 #include "sim/plane_flights.h"
 #include "sim/projection_map.h"
@@ -52,6 +53,7 @@ class Description {
     mirror();
     near_field();
     more_meetings();
+    shadow();
     if (rung != Rung::tubes) directions();
     return std::move(findings_);
   }
@@ -100,6 +102,14 @@ class Description {
                  : "every reflected ray is followed to its next meeting");
     if (material && material->reflectance <= 0)
       add("light from the field", "absorbed or passed on", "left out: no diffuse light");
+  }
+
+  void shadow() {
+    constexpr std::size_t places = 512;  // spread over the near field
+    const bool clear = is_view_clear(scene_.reflector.profile(), scene_.source.position_mm(),
+                                     scene_.near_field.samples(places));
+    add("shadow on direct light", clear ? "nothing can stand between" : "the mirror may stand between",
+        clear ? "left out: no ray asks for it" : "a ray to every sample asks for it");
   }
 
   void directions() {

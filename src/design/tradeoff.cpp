@@ -91,10 +91,13 @@ TradeRow measure(const Scene& scene, const TradeSetting& setting, const Profile&
   TradeRow row{.setting = setting, .seeds = setting.rung == sim::Rung::tubes ? 1 : scene.tradeoff.seeds};
   std::vector<double> times;
   double square = 0, spent = 0;
-  for (std::size_t run = 0; run < most_times; ++run) {
+  int judged_seeds = 0;
+  constexpr double patience = 10;  // in longest evaluations: an accuracy may turn out to be out of reach
+  const std::size_t most = std::max(most_times, static_cast<std::size_t>(row.seeds));
+  for (std::size_t run = 0; run < most; ++run) {
     const bool judged = static_cast<int>(run) < row.seeds;
     if (!judged && run >= fewest_times && spent > enough_seconds) break;
-    if (!judged && spent > scene.tradeoff.seconds) break;
+    if (spent > (judged ? patience : 1) * scene.tradeoff.seconds) break;
     const auto begin = Clock::now();
     // Sets of photons of an accuracy take consecutive streams: seeds stand far apart.
     const Field field =
@@ -104,10 +107,12 @@ TradeRow measure(const Scene& scene, const TradeSetting& setting, const Profile&
     row.photons = std::max(row.photons, field.photons);
     if (!judged) continue;
     const double error = root_mean_square_error(field.total, truth.total) / rms;
-    square += error * error / row.seeds;
+    square += error * error;
+    ++judged_seeds;
     row.greatest_error_rel = std::max(row.greatest_error_rel, error);
   }
-  row.error_rel = std::sqrt(square);
+  row.seeds = judged_seeds;
+  row.error_rel = std::sqrt(square / judged_seeds);
   row.seconds = median(times);
   row.least_seconds = *std::min_element(times.begin(), times.end());
   return row;
