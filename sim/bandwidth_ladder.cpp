@@ -15,23 +15,11 @@ double radius_at(const LadderOptions& options, std::size_t level) {
   return options.widest_radius_mm * std::pow(0.5, 0.5 * static_cast<double>(level));
 }
 
-void add(BandwidthLadder& ladder, const EnergyLedger& energy, const PhotonCounts& counts, double share) {
-  ladder.energy.emitted_w += share * energy.emitted_w;
-  ladder.energy.missed_w += share * energy.missed_w;
-  ladder.energy.absorbed_w += share * energy.absorbed_w;
-  ladder.energy.received_w += share * energy.received_w;
-  ladder.energy.escaped_w += share * energy.escaped_w;
-  ladder.energy.cut_off_w += share * energy.cut_off_w;
-  ladder.counts.emitted += counts.emitted;
-  ladder.counts.met_mirror += counts.met_mirror;
-  ladder.counts.stored += counts.stored;
-  ladder.counts.interactions += counts.interactions;
-}
-
 void look_at_map(const Scene& scene, std::span<const FieldSample> samples, const LadderOptions& options,
                  const PhotonOptions& photons, BandwidthLadder& ladder) {
   TracedPhotons traced = trace_photons(scene, photons, options.widest_radius_mm);
-  add(ladder, traced.energy, traced.counts, 1.0 / static_cast<double>(options.sets));
+  ladder.energy.add(traced.energy, 1.0 / static_cast<double>(options.sets));
+  ladder.counts.add(traced.counts);
   const PhotonMap map(scene.near_field, std::move(traced));
   const auto look = [&](std::size_t level) {
     return map.estimate(samples, {Kernel::silverman, {}, radius_at(options, level)}).irradiance;
@@ -57,7 +45,8 @@ void look_at_rings(const Scene& scene, std::span<const FieldSample> samples, con
          0.5 * ladder.levels.back().kernel_radius_mm * ladder.levels.back().kernel_radius_mm <
              set.least_bandwidth_mm2())
     ladder.levels.pop_back();
-  add(ladder, set.energy(), set.counts(), 1.0 / static_cast<double>(options.sets));
+  ladder.energy.add(set.energy(), 1.0 / static_cast<double>(options.sets));
+  ladder.counts.add(set.counts());
   const std::vector<double> radii = ring_radii_mm(scene.near_field, samples);
   for (LadderLevel& level : ladder.levels) {
     const double bandwidth = 0.5 * level.kernel_radius_mm * level.kernel_radius_mm;

@@ -113,7 +113,8 @@ class Sets {
         options.seed = photon_key(options_.photons.seed, options_.photons.stream);
         options.stream = set;
         const FlightTotals totals = fly_set(options, set);
-        add(field, totals);
+        field.energy.add(totals.energy, 1 / static_cast<double>(photons_.size()));
+        field.counts.add(totals.counts);
         powers.push_back(totals.photon_power_w);
       }
     };
@@ -152,20 +153,6 @@ class Sets {
         store.add(set, chunk, squares);
       });
     });
-  }
-
-  void add(RingsField& field, const FlightTotals& totals) const {
-    const double share = 1 / static_cast<double>(photons_.size());
-    field.energy.emitted_w += share * totals.energy.emitted_w;
-    field.energy.missed_w += share * totals.energy.missed_w;
-    field.energy.absorbed_w += share * totals.energy.absorbed_w;
-    field.energy.received_w += share * totals.energy.received_w;
-    field.energy.escaped_w += share * totals.energy.escaped_w;
-    field.energy.cut_off_w += share * totals.energy.cut_off_w;
-    field.counts.emitted += totals.counts.emitted;
-    field.counts.met_mirror += totals.counts.met_mirror;
-    field.counts.stored += totals.counts.stored;
-    field.counts.interactions += totals.counts.interactions;
   }
 
   const Scene& scene_;

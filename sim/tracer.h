@@ -32,6 +32,16 @@ struct EnergyLedger {
                           ///< near field's own area against its normal at least once and then left
   double escaped_w = 0;   ///< touched the mirror and left without being received
   double cut_off_w = 0;   ///< stopped after most_interactions
+
+  /// Adds a share of another ledger: the mean of n sets is the sum of their n-ths.
+  void add(const EnergyLedger& part, double share) {
+    emitted_w += share * part.emitted_w;
+    missed_w += share * part.missed_w;
+    absorbed_w += share * part.absorbed_w;
+    received_w += share * part.received_w;
+    escaped_w += share * part.escaped_w;
+    cut_off_w += share * part.cut_off_w;
+  }
 };
 
 struct PhotonCounts {
@@ -39,6 +49,13 @@ struct PhotonCounts {
   std::uint64_t met_mirror = 0;    ///< photons that touched the mirror at least once
   std::uint64_t stored = 0;        ///< meetings with the near field's plane that were recorded
   std::uint64_t interactions = 0;  ///< with the mirror and with a real near field, all photons together
+
+  void add(const PhotonCounts& part) {
+    emitted += part.emitted;
+    met_mirror += part.met_mirror;
+    stored += part.stored;
+    interactions += part.interactions;
+  }
 };
 
 /// A photon that met the near field's plane after touching the mirror, as it is handed over by its chunk.

@@ -77,22 +77,6 @@ Figure judge_objective(const Scene& scene, const Target& target, const Rows& ref
   return figure;
 }
 
-void add(sim::EnergyLedger& sum, const sim::EnergyLedger& part, double share) {
-  sum.emitted_w += share * part.emitted_w;
-  sum.missed_w += share * part.missed_w;
-  sum.absorbed_w += share * part.absorbed_w;
-  sum.received_w += share * part.received_w;
-  sum.escaped_w += share * part.escaped_w;
-  sum.cut_off_w += share * part.cut_off_w;
-}
-
-void add(sim::PhotonCounts& sum, const sim::PhotonCounts& part) {
-  sum.emitted += part.emitted;
-  sum.met_mirror += part.met_mirror;
-  sum.stored += part.stored;
-  sum.interactions += part.interactions;
-}
-
 /// What follows from the replicates' fields alone.
 void fill_fields(Judgement& judgement, const Rows& reflected, const Rows& sharp) {
   Rows blur(reflected.size());
@@ -142,8 +126,8 @@ Judgement judge(const Scene& scene, const Target& target, const Profile& profile
     reflected.push_back(std::move(each.reflected));
     sharp.push_back(std::move(each.sharp));
     judgement.kernel_radius_mm += share * each.kernel_radius_mm;
-    add(judgement.energy, each.energy, share);
-    add(judgement.counts, each.counts);
+    judgement.energy.add(each.energy, share);
+    judgement.counts.add(each.counts);
   }
   fill_fields(judgement, reflected, sharp);
   if (judgement.has_objective)

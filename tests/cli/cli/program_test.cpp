@@ -150,8 +150,9 @@ TEST_CASE("a search that runs out of evaluations ends with 5 and writes its file
 
 TEST_CASE("an interrupted search ends with 130 and leaves its best so far") {
   const TemporaryFolder folder;
+  // --foreground: else timeout signals its group too, and a second signal ends the program at once
   const Ended ended = run_shell(
-      "timeout --signal=INT --preserve-status 2 '" + program + "' design '" + paper +
+      "timeout --foreground --signal=INT --preserve-status 2 '" + program + "' design '" + paper +
       "start_a.toml' --set model.rung=photons --set model.photons=10000000 --set model.replicates=2 --out '" +
       (folder / "a").string() + "'");
   INFO(ended.output);
