@@ -60,7 +60,7 @@ struct AccurateField {
 ///        there is, and a sentence that says how far it got
 /// @fails InputError for an accuracy that is not above 0, a wanted rung that is not valid, fewer than 10 000
 ///        photons allowed
-/// @cost  the stages before the last together about half of it
+/// @cost  that of all stages: spent_photons flights, and sets * levels * samples estimates in each stage
 AccurateField reach_accuracy(const Scene& scene, std::span<const FieldSample> samples,
                              const AccuracyRequest& request);
 
