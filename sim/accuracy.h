@@ -58,8 +58,8 @@ struct AccurateField {
 /// @in    samples on the near field
 /// @out   the same bits for any number of threads; where the accuracy could not be proven, the best field
 ///        there is, and a sentence that says how far it got
-/// @fails InputError for an accuracy that is not above 0, a wanted rung that is not valid, fewer than 10 000
-///        photons allowed
+/// @fails InputError for an accuracy that is not above 0, a wanted rung that is not valid, fewer photons
+///        allowed than the first look takes (2048)
 /// @cost  that of all stages: spent_photons flights, and sets * levels * samples estimates in each stage
 AccurateField reach_accuracy(const Scene& scene, std::span<const FieldSample> samples,
                              const AccuracyRequest& request);
