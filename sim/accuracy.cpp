@@ -18,7 +18,9 @@ namespace {
 
 constexpr std::uint64_t sets = 4;             ///< fewer give no spread, more waste the points' evenness
 constexpr std::uint64_t first_photons = 512;  ///< of a set: enough for a forecast
-constexpr std::size_t most_probes = 2048;     ///< samples by which the error is judged
+constexpr std::size_t first_levels = 6;       ///< of bandwidths, down to some four photons in a kernel
+constexpr std::size_t fewest_levels = 7;      ///< of later stages
+constexpr std::size_t narrower_levels = 4;    ///< than the bandwidth expected to be best
 
 double root_mean_square(std::span<const double> a, std::span<const double> b) {
   std::vector<double> squares(a.size());
@@ -39,11 +41,24 @@ void check(const Scene& scene, const AccuracyRequest& request) {
                         "model.rung", *objection, "model.rung = \"auto\""});
 }
 
-/// Every k-th sample, so that no more than most_probes are left.
-std::vector<FieldSample> probes_of(std::span<const FieldSample> samples) {
-  const std::size_t stride = (samples.size() + most_probes - 1) / most_probes;
-  std::vector<FieldSample> probes;
-  for (std::size_t i = 0; i < samples.size(); i += stride) probes.push_back(samples[i]);
+/// The samples by which the error is judged: so many, spread over all of them without a period.
+struct Probes {
+  std::vector<FieldSample> samples;
+  std::vector<double> direct;
+};
+
+Probes probes_of(std::span<const FieldSample> samples, std::span<const double> direct, std::size_t most) {
+  constexpr double golden = 0.61803398874989485;
+  const std::size_t count = std::min(most, samples.size());
+  const double stride = static_cast<double>(samples.size()) / static_cast<double>(count);
+  Probes probes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double turn = golden * static_cast<double>(i), within = turn - std::floor(turn);
+    const auto pick =
+        count == samples.size() ? i : static_cast<std::size_t>((static_cast<double>(i) + within) * stride);
+    probes.samples.push_back(samples[std::min(pick, samples.size() - 1)]);
+    probes.direct.push_back(direct[std::min(pick, samples.size() - 1)]);
+  }
   return probes;
 }
 
@@ -54,70 +69,67 @@ std::uint64_t round_up(double count) {
   return ((whole + (std::uint64_t{1} << drop) - 1) >> drop) << drop;
 }
 
+/// What a stage does.
+struct StagePlan {
+  std::uint64_t photons = first_photons;  ///< of a set
+  std::size_t levels = first_levels;
+};
+
 /// Works by photons: stage after stage.
 class PhotonStages {
  public:
   PhotonStages(const Scene& scene, std::span<const FieldSample> samples, const AccuracyRequest& request,
                Rung rung, std::vector<double> direct)
-      : scene_(scene), samples_(samples), request_(request), probes_(probes_of(samples)) {
+      : scene_(scene),
+        samples_(samples),
+        request_(request),
+        photon_sets_(scene, rung),
+        widest_radius_mm_(widest_kernel_radius_mm(scene.near_field)) {
     field_.rung = rung;
     field_.direct = std::move(direct);
     field_.sets = sets;
-    const std::size_t stride = (samples.size() + most_probes - 1) / most_probes;
-    for (std::size_t i = 0; i < samples.size(); i += stride) probe_direct_.push_back(field_.direct[i]);
   }
 
   AccurateField run() {
-    std::uint64_t photons = first_photons;
+    StagePlan plan;
     for (;;) {
-      stage(photons);
+      stage(plan);
       if (field_.proven || stopped_) break;
-      const std::uint64_t next = forecast(photons);
-      if (next == 0) break;
-      photons = next;
+      const StagePlan next = next_plan(plan);
+      if (next.photons == 0) break;
+      plan = next;
     }
-    finish(photons);
+    finish(plan.photons);
     return std::move(field_);
   }
 
  private:
-  LadderOptions ladder_options(std::uint64_t photons) const {
-    LadderOptions options;
-    options.rung = field_.rung;
-    options.photons = request_.photons;
-    options.photons.photons = photons;
-    options.photons.stream += sets * field_.stages.size();
-    options.sets = sets;
-    return options;
+  void stage(const StagePlan& plan) {
+    // A first look is to be cheap; afterwards photons cost more than samples.
+    constexpr std::size_t first_probes = 128, most_probes = 256;
+    probes_ = probes_of(samples_, field_.direct, field_.stages.empty() ? first_probes : most_probes);
+    PhotonOptions photons = request_.photons;
+    photons.photons = plan.photons;
+    photons.stream += sets * field_.stages.size();
+    photon_sets_.fly(photons, sets, widest_radius_mm_);
+    ladder_ = photon_sets_.look(probes_.samples, widest_radius_mm_, plan.levels);
+    summary_ = summary_of(ladder_);
+    choice_ = best_choice(summary_);
+    field_.spent_photons += sets * plan.photons;
+    judge(plan.photons);
   }
 
-  void stage(std::uint64_t photons) {
-    options_ = ladder_options(photons);
-    constexpr double photons_of_the_narrowest = 4;
-    const double widest = widest_kernel_radius_mm(scene_.near_field);
-    const double narrowest = 2 * widest * std::sqrt(photons_of_the_narrowest / static_cast<double>(photons));
-    // More photons want a narrower kernel than the stage before; wider ones show how bias falls.
-    constexpr double wider = 2.8284271247461903;  // three levels
-    options_.widest_radius_mm = field_.stages.empty() ? widest : std::min(widest, wider * choice_radius_mm_);
-    const double steps = std::ceil(2 * std::log2(options_.widest_radius_mm / narrowest));
-    options_.levels = static_cast<std::size_t>(std::clamp(steps, 4.0, field_.stages.empty() ? 12.0 : 9.0));
-    ladder_ = look_with_ladder(scene_, probes_, options_);
-    choice_ = best_choice(ladder_);
-    choice_radius_mm_ = ladder_.levels[choice_.level].kernel_radius_mm;
-    field_.spent_photons += sets * photons;
-    judge(photons);
-  }
+  const LadderLevel& chosen() const { return ladder_[choice_.level]; }
 
   void judge(std::uint64_t photons) {
-    const SetFields& fields = fields_of(ladder_.levels[choice_.level], choice_.order);
-    const double rms = root_mean_square(mean_of(fields), probe_direct_);
+    rms_ = root_mean_square(mean_of(fields_of(chosen(), choice_.order)), probes_.direct);
     double error95 = choice_.error95;
-    if (ladder_.counts.stored == 0) {
+    if (photon_sets_.counts().stored == 0) {
       // Light that not one of n photons showed has less than three n-ths of the power (95 %).
-      const double unseen_w = 3 * ladder_.energy.emitted_w / static_cast<double>(sets * photons);
+      const double unseen_w = 3 * photon_sets_.energy().emitted_w / static_cast<double>(sets * photons);
       error95 = unseen_w / scene_.near_field.area_mm2();
     }
-    const double scale = rms > 0 ? 1 / rms : HUGE_VAL;
+    const double scale = rms_ > 0 ? 1 / rms_ : HUGE_VAL;
     field_.noise_rel = choice_.noise > 0 ? choice_.noise * scale : 0;
     field_.bias_rel = choice_.bias > 0 ? choice_.bias * scale : 0;
     field_.error95_rel = error95 > 0 ? error95 * scale : 0;
@@ -126,46 +138,49 @@ class PhotonStages {
     stopped_ = request_.watch && !request_.watch(field_.spent_photons, field_.error95_rel);
   }
 
-  /// Photons of a set that should prove the accuracy; 0 when no more may be spent.
-  std::uint64_t forecast(std::uint64_t photons) const {
-    const auto& stages = field_.stages;
-    // Before it has been seen: of random photons in kernels of their own choice, and of even ones.
-    double slope = request_.photons.sampler == Sampler::sobol ? 0.7 : 0.4;
-    if (stages.size() > 1) {
-      const AccuracyStage &a = stages[stages.size() - 2], &b = stages.back();
-      const double gained = std::log(a.error95_rel / b.error95_rel);
-      const double spent = std::log(static_cast<double>(b.photons) / static_cast<double>(a.photons));
-      // The error falls like a power between 1/4 (jumps) and 1 (the evenest points).
-      if (std::isfinite(gained)) slope = std::clamp(gained / spent, 0.25, 1.0);
-    }
-    constexpr double headroom =
-        0.9;  // stages whose error is expected below this share of the accuracy rarely fail
-    const double shortfall = stages.back().error95_rel / (headroom * request_.relative);
-    const double growth =
-        std::isfinite(shortfall) ? std::clamp(std::pow(shortfall, 1 / slope), 1.3, 16.0) : 16.0;
-    const std::uint64_t next = round_up(growth * static_cast<double>(photons));
+  /// By how much the photons must grow to prove the accuracy, as far as this stage can tell.
+  double growth_needed() const {
+    constexpr double least = 2, step = 1.2, most = 1e5;
+    // Stages whose error is expected below this share of the accuracy rarely fail.
+    constexpr double headroom = 0.8;
+    if (!(rms_ > 0)) return most;
+    double growth = least;
+    while (growth < most &&
+           best_choice(expected_with(summary_, growth)).error95 > headroom * request_.relative * rms_)
+      growth *= step;
+    return growth;
+  }
+
+  /// The next stage; without photons when no more may be spent.
+  StagePlan next_plan(const StagePlan& plan) const {
+    // What is far away is not foreseen well: a stage of some sixth of the cost on the way there pays.
+    constexpr double far = 16, on_the_way = 6, farthest = 64;
+    double growth = growth_needed();
+    if (growth > far) growth = std::min(growth / on_the_way, farthest);
+    StagePlan next;
+    next.photons = round_up(growth * static_cast<double>(plan.photons));
     const std::uint64_t left = request_.most_photons - std::min(request_.most_photons, field_.spent_photons);
-    if (sets * next <= left && next <= most_photons) return next;
-    const std::uint64_t last = std::min(left / sets, most_photons);
-    return last > 2 * photons ? last : 0;
+    if (sets * next.photons > left || next.photons > most_photons) {
+      next.photons = std::min(left / sets, most_photons);
+      if (next.photons <= 2 * plan.photons) return {0, 0};
+    }
+    const double times = static_cast<double>(next.photons) / static_cast<double>(plan.photons);
+    // All wider ones too: they show how bias falls.
+    next.levels =
+        std::max(fewest_levels, best_choice(expected_with(summary_, times)).level + narrower_levels);
+    return next;
   }
 
   void finish(std::uint64_t photons) {
     field_.photons = photons;
-    field_.kernel_radius_mm = choice_radius_mm_;
+    field_.kernel_radius_mm = chosen().kernel_radius_mm;
     field_.order = choice_.order;
-    field_.energy = ladder_.energy;
-    field_.counts = ladder_.counts;
+    field_.energy = photon_sets_.energy();
+    field_.counts = photon_sets_.counts();
     BandwidthLadder all;
-    const LadderLevel* level = &ladder_.levels[choice_.level];
-    if (probes_.size() < samples_.size()) {  // the same photons again, at every sample
-      options_.widest_radius_mm = choice_radius_mm_;
-      options_.levels = 1;
-      all = look_with_ladder(scene_, samples_, options_);
-      level = &all.levels.front();
-      field_.spent_photons += sets * photons;
-    }
-    field_.by_set = fields_of(*level, choice_.order);
+    if (probes_.samples.size() < samples_.size())
+      all = photon_sets_.look(samples_, chosen().kernel_radius_mm, 1);
+    field_.by_set = fields_of(all.empty() ? chosen() : all.front(), choice_.order);
     field_.reflected = mean_of(field_.by_set);
     field_.noise = deviation_of_mean(field_.by_set);
     for (double& value : field_.reflected) value = std::max(0.0, value);
@@ -192,13 +207,14 @@ class PhotonStages {
   const Scene& scene_;
   std::span<const FieldSample> samples_;
   const AccuracyRequest& request_;
-  std::vector<FieldSample> probes_;
-  std::vector<double> probe_direct_;
+  PhotonSets photon_sets_;
+  double widest_radius_mm_;
   AccurateField field_;
-  LadderOptions options_;
+  Probes probes_;
   BandwidthLadder ladder_;
+  LadderSummary summary_;
   LadderChoice choice_;
-  double choice_radius_mm_ = 0;
+  double rms_ = 0;  ///< of the field at the probes, W/mm^2
   bool stopped_ = false;
 };
 

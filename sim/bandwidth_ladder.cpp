@@ -1,7 +1,10 @@
 #include "sim/bandwidth_ladder.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/contract.h"
 #include "base/units.h"
@@ -11,77 +14,143 @@
 namespace catoptric::sim {
 namespace {
 
-double radius_at(const LadderOptions& options, std::size_t level) {
-  return options.widest_radius_mm * std::pow(0.5, 0.5 * static_cast<double>(level));
+/// One set seen with one bandwidth.
+struct Look {
+  std::vector<double> second, fourth;
+};
+
+double radius_at(double widest_radius_mm, std::size_t level) {
+  return widest_radius_mm * std::pow(0.5, 0.5 * static_cast<double>(level));
 }
 
-void look_at_map(const Scene& scene, std::span<const FieldSample> samples, const LadderOptions& options,
-                 const PhotonOptions& photons, BandwidthLadder& ladder) {
-  TracedPhotons traced = trace_photons(scene, photons, options.widest_radius_mm);
-  ladder.energy.add(traced.energy, 1.0 / static_cast<double>(options.sets));
-  ladder.counts.add(traced.counts);
-  const PhotonMap map(scene.near_field, std::move(traced));
-  const auto look = [&](std::size_t level) {
-    return map.estimate(samples, {Kernel::silverman, {}, radius_at(options, level)}).irradiance;
-  };
-  std::vector<double> wide = look(0);
-  for (std::size_t level = 0; level < ladder.levels.size(); ++level) {
-    std::vector<double> narrow = look(level + 1), fourth(samples.size());
-    for (std::size_t i = 0; i < samples.size(); ++i) fourth[i] = 2 * narrow[i] - wide[i];
-    ladder.levels[level].second.push_back(std::move(wide));
-    ladder.levels[level].fourth.push_back(std::move(fourth));
-    wide = std::move(narrow);
+double bandwidth_mm2(double kernel_radius_mm) { return 0.5 * kernel_radius_mm * kernel_radius_mm; }
+
+std::vector<Look> look_at_map(const PhotonMap& map, std::span<const FieldSample> samples,
+                              double widest_radius_mm, std::size_t levels) {
+  auto fields = map.ladder(samples, widest_radius_mm, levels + 1);
+  std::vector<Look> looks(levels);
+  for (std::size_t level = 0; level < levels; ++level) {
+    const auto &wide = fields[level], &narrow = fields[level + 1];
+    looks[level].fourth.resize(samples.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) looks[level].fourth[i] = 2 * narrow[i] - wide[i];
+    looks[level].second = std::move(fields[level]);
   }
+  return looks;
 }
 
-void look_at_rings(const Scene& scene, std::span<const FieldSample> samples, const LadderOptions& options,
-                   const PhotonOptions& photons, BandwidthLadder& ladder) {
-  RingsOptions rings;
-  rings.photons = photons;
-  rings.replicates = 1;
-  RingPhotons set(scene, rings);
-  // Narrower than its bins a store shows no change, which would read as convergence.
-  while (ladder.levels.size() > 2 &&
-         0.5 * ladder.levels.back().kernel_radius_mm * ladder.levels.back().kernel_radius_mm <
-             set.least_bandwidth_mm2())
-    ladder.levels.pop_back();
-  ladder.energy.add(set.energy(), 1.0 / static_cast<double>(options.sets));
-  ladder.counts.add(set.counts());
-  const std::vector<double> radii = ring_radii_mm(scene.near_field, samples);
-  for (LadderLevel& level : ladder.levels) {
-    const double bandwidth = 0.5 * level.kernel_radius_mm * level.kernel_radius_mm;
-    RingsField field = set.estimate(radii, std::min(bandwidth, set.widest_bandwidth_mm2()));
-    level.second.push_back(std::move(field.irradiance));
-    level.fourth.push_back(std::move(field.debiased));
+std::vector<Look> look_at_rings(RingPhotons& set, std::span<const double> radii_mm, double widest_radius_mm,
+                                std::size_t levels) {
+  std::vector<Look> looks(levels);
+  for (std::size_t level = 0; level < levels; ++level) {
+    const double bandwidth = bandwidth_mm2(radius_at(widest_radius_mm, level));
+    RingsField field = set.estimate(radii_mm, std::min(bandwidth, set.widest_bandwidth_mm2()));
+    looks[level] = {std::move(field.irradiance), std::move(field.debiased)};
   }
+  return looks;
 }
 
 }  // namespace
 
 double widest_kernel_radius_mm(const NearField& field) {
-  return 0.5 * std::min(field.half_width_mm(), field.half_height_mm());
+  return 0.70710678118654752 * std::min(field.half_width_mm(), field.half_height_mm());
 }
 
-BandwidthLadder look_with_ladder(const Scene& scene, std::span<const FieldSample> samples,
-                                 const LadderOptions& options) {
-  CATOPTRIC_EXPECTS(options.rung != Rung::tubes && options.sets > 0 && options.widest_radius_mm > 0);
-  BandwidthLadder ladder;
-  ladder.levels.resize(options.levels);
-  for (std::size_t level = 0; level < options.levels; ++level) {
-    const double radius_mm = radius_at(options, level);
-    ladder.levels[level].kernel_radius_mm = radius_mm;
-    ladder.levels[level].independent =
-        std::max(1.0, scene.near_field.area_mm2() / (pi * radius_mm * radius_mm));
+struct PhotonSets::Parts {
+  const Scene& scene;
+  Rung rung;
+  std::optional<PhotonFlights> flights;  ///< of rung photons
+  std::vector<PhotonMap> maps = {};
+  std::vector<RingPhotons> rings = {};
+  EnergyLedger energy = {};
+  PhotonCounts counts = {};
+
+  void add(const EnergyLedger& of_set, const PhotonCounts& counted, std::size_t sets) {
+    energy.add(of_set, 1.0 / static_cast<double>(sets));
+    counts.add(counted);
   }
-  for (std::size_t set = 0; set < options.sets; ++set) {
-    PhotonOptions photons = options.photons;
-    photons.stream += set;
-    if (options.rung == Rung::rings)
-      look_at_rings(scene, samples, options, photons, ladder);
-    else
-      look_at_map(scene, samples, options, photons, ladder);
+
+  void fly_to_maps(const PhotonOptions& options, std::size_t sets, double widest_radius_mm) {
+    flights->record(RecordedArea::about(scene.near_field, widest_radius_mm));
+    std::vector<TracedPhotons> traced(sets);
+    std::vector<std::optional<PhotonMap>> built(sets);
+    tbb::parallel_for(std::size_t{0}, sets, [&](std::size_t set) {
+      PhotonOptions photons = options;
+      photons.stream += set;
+      traced[set] = trace_photons(*flights, photons);
+      built[set].emplace(scene.near_field, std::move(traced[set]));
+    });
+    for (std::size_t set = 0; set < sets; ++set) {
+      add(traced[set].energy, traced[set].counts, sets);
+      maps.push_back(std::move(*built[set]));
+    }
   }
+
+  void fly_to_rings(const PhotonOptions& options, std::size_t sets) {
+    for (std::size_t set = 0; set < sets; ++set) {
+      RingsOptions ring_options;
+      ring_options.photons = options;
+      ring_options.photons.stream += set;
+      ring_options.replicates = 1;
+      rings.emplace_back(scene, ring_options);
+      add(rings.back().energy(), rings.back().counts(), sets);
+    }
+  }
+
+  /// Narrower than its bins a store shows no change, which would read as convergence.
+  std::size_t resolved(double widest_radius_mm, std::size_t levels) const {
+    if (rings.empty()) return levels;
+    while (levels > 2 &&
+           bandwidth_mm2(radius_at(widest_radius_mm, levels - 1)) < rings.front().least_bandwidth_mm2())
+      --levels;
+    return levels;
+  }
+};
+
+PhotonSets::PhotonSets(const Scene& scene, Rung rung) : parts_(new Parts{scene, rung, {}}) {
+  CATOPTRIC_EXPECTS(rung != Rung::tubes);
+  if (rung == Rung::photons) parts_->flights.emplace(scene, RecordedArea::about(scene.near_field, 0));
+}
+PhotonSets::~PhotonSets() = default;
+
+void PhotonSets::fly(const PhotonOptions& options, std::size_t sets, double widest_radius_mm) {
+  CATOPTRIC_EXPECTS(sets > 0 && widest_radius_mm > 0);
+  parts_->maps.clear();
+  parts_->rings.clear();
+  parts_->energy = {};
+  parts_->counts = {};
+  if (parts_->rung == Rung::rings)
+    parts_->fly_to_rings(options, sets);
+  else
+    parts_->fly_to_maps(options, sets, widest_radius_mm);
+}
+
+BandwidthLadder PhotonSets::look(std::span<const FieldSample> samples, double widest_radius_mm,
+                                 std::size_t levels) const {
+  CATOPTRIC_EXPECTS(levels > 0 && !(parts_->maps.empty() && parts_->rings.empty()));
+  BandwidthLadder ladder(parts_->resolved(widest_radius_mm, levels));
+  for (std::size_t level = 0; level < ladder.size(); ++level) {
+    const double radius_mm = radius_at(widest_radius_mm, level);
+    ladder[level].kernel_radius_mm = radius_mm;
+    ladder[level].independent = std::clamp(parts_->scene.near_field.area_mm2() / (pi * radius_mm * radius_mm),
+                                           1.0, static_cast<double>(samples.size()));
+  }
+  const bool by_rings = parts_->rung == Rung::rings;
+  std::vector<double> radii;
+  if (by_rings) radii = ring_radii_mm(parts_->scene.near_field, samples);
+  std::vector<std::vector<Look>> sets(by_rings ? parts_->rings.size() : parts_->maps.size());
+  tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t set) {
+    sets[set] = by_rings ? look_at_rings(parts_->rings[set], radii, widest_radius_mm, ladder.size())
+                         : look_at_map(parts_->maps[set], samples, widest_radius_mm, ladder.size());
+  });
+  for (auto& set : sets)
+    for (std::size_t level = 0; level < ladder.size(); ++level) {
+      ladder[level].second.push_back(std::move(set[level].second));
+      ladder[level].fourth.push_back(std::move(set[level].fourth));
+    }
   return ladder;
 }
+
+const EnergyLedger& PhotonSets::energy() const { return parts_->energy; }
+const PhotonCounts& PhotonSets::counts() const { return parts_->counts; }
 
 }  // namespace catoptric::sim

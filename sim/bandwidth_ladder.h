@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,34 +21,44 @@ struct LadderLevel {
   SetFields fourth;             ///< of fourth order: the blur of second order extrapolated away
 };
 
-/// Sets of photons seen through a ladder of bandwidths, each narrower than the one before by the root of two.
-struct BandwidthLadder {
-  std::vector<LadderLevel> levels;  ///< widest first
-  EnergyLedger energy;              ///< mean of the sets
-  PhotonCounts counts;              ///< of all sets together
-};
-
-struct LadderOptions {
-  Rung rung = Rung::photons;  ///< rings or photons
-  PhotonOptions photons;      ///< of one set; set i flies on stream + i
-  std::size_t sets = 4;
-  double widest_radius_mm = 0;
-  std::size_t levels = 1;
-};
+/// Sets of photons seen through a ladder of bandwidths, each narrower than the one before by the root of two;
+/// widest first.
+using BandwidthLadder = std::vector<LadderLevel>;
 
 /// The widest kernel that a field can be looked at with: half of its smaller half width. Beyond it no
 /// estimate is local.
 double widest_kernel_radius_mm(const NearField& field);
 
-/// Lets the sets fly one after the other, so that only one is in memory, and looks at each with every
-/// bandwidth.
-/// @in    samples on the near field; the rung valid for the scene
-/// @out   the same bits for any number of threads
-/// @fails as trace_photons or RingPhotons
-/// @error fourth order of rung photons: twice the estimate of half the kernel area less the estimate
-///        (Richardson extrapolation, Schucany & Sommers 1977); of rings: boundary kernels of fourth order
-/// @cost  that of sets * photons and sets * levels * samples estimates
-BandwidthLadder look_with_ladder(const Scene& scene, std::span<const FieldSample> samples,
-                                 const LadderOptions& options);
+/// Independent sets of photons of one size, kept so that they can be looked at with any bandwidth. What all
+/// sets share, and all sizes, is prepared once.
+class PhotonSets {
+ public:
+  /// @in    rung rings or photons, valid for the scene; the scene must outlive this
+  /// @fails InputError for a bad mirror material
+  PhotonSets(const Scene& scene, Rung rung);
+  ~PhotonSets();
+
+  /// Lets the sets fly, in place of those before: set i on stream + i.
+  /// @in    photons of one set; the widest radius that will be looked at
+  /// @out   the same bits for any number of threads
+  /// @fails as trace_photons or RingPhotons
+  /// @cost  all sets are in memory: 17 bytes a photon, for rings 8 bytes a bin
+  void fly(const PhotonOptions& options, std::size_t sets, double widest_radius_mm);
+
+  /// @in    samples on the near field; radii down to widest_radius_mm / sqrt(2)^levels
+  /// @out   as many levels as asked for, or fewer, two at least, where storage does not resolve narrower ones
+  /// @error fourth order of rung photons: twice the estimate of half the kernel area less the estimate
+  ///        (Richardson extrapolation, Schucany & Sommers 1977); of rings: boundary kernels of fourth order
+  /// @cost  of photons one gathering a sample and set, of rings one estimate a level, sample and set
+  BandwidthLadder look(std::span<const FieldSample> samples, double widest_radius_mm,
+                       std::size_t levels) const;
+
+  const EnergyLedger& energy() const;  ///< mean of the sets
+  const PhotonCounts& counts() const;  ///< of all sets together
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
 
 }  // namespace catoptric::sim

@@ -1,6 +1,7 @@
 #include "sim/ladder_error.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <optional>
@@ -44,6 +45,9 @@ double excess(double independent, std::size_t sets) {
   return boost::math::quantile(boost::math::fisher_f(independent, spread_parts), 0.99);
 }
 
+/// Of the bias, by the index that readings have.
+constexpr std::array<int, 2> orders{2, 4};
+
 /// What narrowing by one level changes, root mean square.
 struct Change {
   double seen = 0;    ///< its own noise taken off
@@ -51,22 +55,29 @@ struct Change {
   bool stands_out = false;
 };
 
-Change change_between(const LadderLevel& wide, const LadderLevel& narrow, int order) {
-  const SetFields &a = fields_of(wide, order), &b = fields_of(narrow, order);
-  const MeanSquare difference = mean_square(a, &b);
-  const double over = excess(narrow.independent, a.size()) - 1;
+Change change_of(const LadderReading& reading, double excess_of_narrow) {
+  const double over = excess_of_narrow - 1;
   Change change;
-  change.stands_out = difference.value > difference.variance * (1 + over);
-  change.seen = std::sqrt(std::max(0.0, difference.value - difference.variance));
-  change.hidden = std::sqrt(difference.variance * over);
+  change.stands_out = reading.change > reading.change_variance * (1 + over);
+  change.seen = std::sqrt(std::max(0.0, reading.change - reading.change_variance));
+  change.hidden = std::sqrt(reading.change_variance * over);
   return change;
+}
+
+/// Of all levels but the last.
+std::vector<Change> changes_of(const LadderSummary& ladder, std::size_t order) {
+  std::vector<Change> changes;
+  for (std::size_t level = 0; level + 1 < ladder.levels.size(); ++level)
+    changes.push_back(change_of(ladder.levels[level].orders[order], ladder.levels[level + 1].excess));
+  return changes;
 }
 
 /// By which share a change follows the one before, from the last two that stand out up to level `last`;
 /// nothing where none stands out.
 struct Decay {
-  std::size_t level;  ///< of the last change that stands out
-  double share;
+  std::size_t level;    ///< of the last change that stands out
+  double share;         ///< no less than this is certain
+  double likely_share;  ///< to be expected
 };
 
 /// Narrowing by the root of two leaves half of a bias of second order, a quarter of one of fourth.
@@ -91,7 +102,11 @@ std::optional<Decay> decay_of(const std::vector<Change>& changes, int order) {
                        std::pow(changes[k].seen / changes[k - steps].seen, 1.0 / static_cast<double>(steps)));
     // Slower than any smooth field: a jump, whose share noise must not make smaller.
     constexpr double slowest_smooth = 0.6;
-    decay = Decay{k, share > slowest_smooth ? jump_share : std::max(share, smooth_share(order))};
+    const std::size_t back = std::min(k, few);
+    const double mean =
+        back == 0 ? 0.0 : std::pow(changes[k].seen / changes[k - back].seen, 1.0 / static_cast<double>(back));
+    decay = Decay{k, share > slowest_smooth ? jump_share : std::max(share, smooth_share(order)),
+                  std::clamp(mean, smooth_share(order), jump_share)};
   }
   // The next change does not stand out; what it can be at most bounds the share too.
   if (decay && decay->level + 1 < changes.size()) {
@@ -118,6 +133,21 @@ double bias_bound(const std::vector<Change>& changes, std::size_t from, const st
   return sum + changes[decay->level].seen * share / (1 - share);
 }
 
+/// A variance between levels, and beyond the widest: by as much a level as between the two widest, but no
+/// less than for random photons, whose variance goes as 1 / photons, and no more than for the evenest,
+/// photons^(-3/2).
+double variance_at(const std::vector<double>& by_level, double level) {
+  const auto at = [&](std::size_t i) { return std::log2(std::max(by_level[i], 1e-300)); };
+  if (level <= 0) {
+    const double a_level = by_level.size() > 1 ? std::clamp(at(1) - at(0), 1.0, 1.5) : 1.0;
+    return by_level.front() * std::exp2(a_level * level);
+  }
+  const double last = static_cast<double>(by_level.size() - 1);
+  const auto below = static_cast<std::size_t>(std::min(level, last));
+  const double part = std::min(level, last) - static_cast<double>(below);
+  return std::exp2((1 - part) * at(below) + part * at(std::min(below + 1, by_level.size() - 1)));
+}
+
 }  // namespace
 
 std::vector<double> mean_of(const SetFields& sets) {
@@ -142,31 +172,75 @@ const SetFields& fields_of(const LadderLevel& level, int order) {
   return order == 2 ? level.second : level.fourth;
 }
 
-LadderChoice best_choice(const BandwidthLadder& ladder) {
-  CATOPTRIC_EXPECTS(ladder.levels.size() >= 2 && ladder.levels.front().second.size() >= 2);
+LadderSummary summary_of(const BandwidthLadder& ladder) {
+  CATOPTRIC_EXPECTS(ladder.size() >= 2 && ladder.front().second.size() >= 2);
+  LadderSummary summary;
+  for (std::size_t level = 0; level < ladder.size(); ++level) {
+    const LadderLevel& at = ladder[level];
+    LadderSummary::Level& read = summary.levels.emplace_back();
+    read.excess = excess(at.independent, at.second.size());
+    for (std::size_t i = 0; i < orders.size(); ++i) {
+      const SetFields& sets = fields_of(at, orders[i]);
+      read.orders[i].variance = mean_square(sets, nullptr).variance;
+      if (level + 1 == ladder.size()) continue;
+      const MeanSquare change = mean_square(sets, &fields_of(ladder[level + 1], orders[i]));
+      read.orders[i].change = change.value;
+      read.orders[i].change_variance = change.variance;
+    }
+  }
+  return summary;
+}
+
+LadderChoice best_choice(const LadderSummary& ladder) {
   LadderChoice best;
   best.error95 = HUGE_VAL;
   double least_share = smooth_share(2);
-  for (const int order : {2, 4}) {
-    std::vector<Change> changes;
-    for (std::size_t level = 0; level + 1 < ladder.levels.size(); ++level)
-      changes.push_back(change_between(ladder.levels[level], ladder.levels[level + 1], order));
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    const int order = orders[i];
+    const std::vector<Change> changes = changes_of(ladder, i);
     const auto decay = decay_of(changes, order);
     // What is a jump to a kernel of second order is one to a kernel of fourth.
     if (order == 4) least_share = least_share > 1.2 * smooth_share(2) ? least_share : smooth_share(4);
     for (std::size_t level = 0; level < changes.size(); ++level) {
-      const LadderLevel& at = ladder.levels[level];
-      const SetFields& sets = fields_of(at, order);
-      const double variance = mean_square(sets, nullptr).variance;
+      const double variance = ladder.levels[level].orders[i].variance;
       LadderChoice choice{level, order, std::sqrt(variance), bias_bound(changes, level, decay, least_share),
                           0};
-      choice.error95 = choosers_margin *
-                       std::sqrt(variance * excess(at.independent, sets.size()) + choice.bias * choice.bias);
+      choice.error95 =
+          choosers_margin * std::sqrt(variance * ladder.levels[level].excess + choice.bias * choice.bias);
       if (choice.error95 < best.error95) best = choice;
     }
     if (order == 2 && decay) least_share = std::max(least_share, decay->share);
   }
   return best;
+}
+
+LadderSummary expected_with(const LadderSummary& ladder, double times_the_photons) {
+  const double shift = std::log2(times_the_photons);
+  LadderSummary expected = ladder;
+  // Down to the same photons in the narrowest kernel; on ever more kernels than today's the excess is less.
+  for (double more = shift; more >= 1; --more) expected.levels.push_back(ladder.levels.back());
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    const std::vector<Change> changes = changes_of(ladder, i);
+    const auto decay = decay_of(changes, orders[i]);
+    std::vector<double> variances, change_variances;
+    for (const auto& level : ladder.levels) {
+      variances.push_back(level.orders[i].variance);
+      change_variances.push_back(level.orders[i].change_variance);
+    }
+    change_variances.pop_back();
+    for (std::size_t level = 0; level < expected.levels.size(); ++level) {
+      const double as_today = static_cast<double>(level) - shift;
+      double seen = decay && level <= decay->level ? changes[level].seen : 0;
+      if (decay && level > decay->level)
+        seen = changes[decay->level].seen *
+               std::pow(decay->likely_share, static_cast<double>(level - decay->level));
+      LadderReading& reading = expected.levels[level].orders[i];
+      reading.variance = variance_at(variances, as_today);
+      reading.change_variance = variance_at(change_variances, as_today);
+      reading.change = seen * seen + reading.change_variance;
+    }
+  }
+  return expected;
 }
 
 }  // namespace catoptric::sim

@@ -1,11 +1,37 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include "sim/bandwidth_ladder.h"
 
 namespace catoptric::sim {
+
+/// The sets' mean at the samples.
+std::vector<double> mean_of(const SetFields& sets);
+/// Standard deviation of that mean at each sample, by the sets' spread.
+std::vector<double> deviation_of_mean(const SetFields& sets);
+const SetFields& fields_of(const LadderLevel& level, int order);
+
+/// What a level's estimates of one order tell, as mean squares over the samples, W^2/mm^4.
+struct LadderReading {
+  double variance = 0;         ///< of the sets' mean
+  double change = 0;           ///< square of what narrowing by one level changes in that mean
+  double change_variance = 0;  ///< how much of `change` the sets' spread explains
+};
+
+/// A ladder without its fields. The last level's change is not known.
+struct LadderSummary {
+  struct Level {
+    double excess = 1;  ///< by how much a mean square over its kernels may exceed its expectation
+    std::array<LadderReading, 2> orders;  ///< second and fourth
+  };
+  std::vector<Level> levels;  ///< widest first
+};
+
+/// @in two levels and two sets at least
+LadderSummary summary_of(const BandwidthLadder& ladder);
 
 /// One way to read a ladder: a level, and which of its two estimates.
 struct LadderChoice {
@@ -16,12 +42,6 @@ struct LadderChoice {
   double error95 = 0;  ///< root mean square error that is not exceeded with a probability of 95 %
 };
 
-/// The sets' mean at the samples.
-std::vector<double> mean_of(const SetFields& sets);
-/// Standard deviation of that mean at each sample, by the sets' spread.
-std::vector<double> deviation_of_mean(const SetFields& sets);
-const SetFields& fields_of(const LadderLevel& level, int order);
-
 /// The reading of a ladder with the least error.
 ///
 /// Noise comes from the spread of the sets. Its mean square over the samples is known as well as the number
@@ -30,8 +50,12 @@ const SetFields& fields_of(const LadderLevel& level, int order);
 /// continued as the geometric series that the last ones make (a quarter or half a step for smooth fields,
 /// more at jumps). Where not even the widest kernel shows a change, that is taken which noise could hide, and
 /// the field is taken for smooth.
-/// @in    two levels and two sets at least
 /// @from  Lepski 1991 for the comparison of bandwidths
-LadderChoice best_choice(const BandwidthLadder& ladder);
+LadderChoice best_choice(const LadderSummary& ladder);
+
+/// What so many times the photons are expected to show. Noise depends on the number of photons in a kernel,
+/// so that the ladder itself says what it is with other numbers; bias does not depend on it, and changes that
+/// noise hides today follow the last ones seen.
+LadderSummary expected_with(const LadderSummary& ladder, double times_the_photons);
 
 }  // namespace catoptric::sim

@@ -118,6 +118,13 @@ void PhotonGrid::add_within(const StoredPhoton& centre, double radius_mm, Kernel
   });
 }
 
+void PhotonGrid::add_within(const StoredPhoton& centre, double widest_radius_mm,
+                            RadialMoments& moments) const {
+  for_each_stretch(centre, widest_radius_mm, [&](std::size_t first, std::size_t count) {
+    moments.add(x_.data() + first, y_.data() + first, count);
+  });
+}
+
 void PhotonGrid::append_squares(const StoredPhoton& centre, double radius_mm,
                                 std::vector<double>& squares_mm2) const {
   const double square = radius_mm * radius_mm;

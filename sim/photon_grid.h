@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/kernel_sum.h"
+#include "sim/radial_moments.h"
 #include "sim/stored_photons.h"
 
 namespace catoptric::sim {
@@ -26,6 +27,9 @@ class PhotonGrid {
 
   /// Adds the photons within the kernel's radius to the sum.
   void add_within(const StoredPhoton& centre, double radius_mm, KernelSum& sum) const;
+
+  /// The same for the kernels of a ladder of radii.
+  void add_within(const StoredPhoton& centre, double widest_radius_mm, RadialMoments& moments) const;
 
   /// Photons in cells that lie wholly within the radius; never more than lie within it.
   std::size_t surely_within(const StoredPhoton& centre, double radius_mm) const;

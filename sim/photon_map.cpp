@@ -11,6 +11,7 @@
 #include "sim/edge_correction.h"
 #include "sim/kernel_sum.h"
 #include "sim/photon_grid.h"
+#include "sim/radial_moments.h"
 
 namespace catoptric::sim {
 namespace {
@@ -37,6 +38,10 @@ class Side {
 
   void add_within(const StoredPhoton& centre, double radius_mm, KernelSum& sum) const {
     for (const PhotonGrid& grid : grids_) grid.add_within(centre, radius_mm, sum);
+  }
+
+  void add_within(const StoredPhoton& centre, double radius_mm, RadialMoments& moments) const {
+    for (const PhotonGrid& grid : grids_) grid.add_within(centre, radius_mm, moments);
   }
 
   /// Squared distances of the nearest `count` photons, at most all of them; nearest are not sorted.
@@ -174,6 +179,28 @@ MapEstimate PhotonMap::estimate(std::span<const FieldSample> samples, const Esti
       estimate_one(i, squares);
   });
   return out;
+}
+
+std::vector<std::vector<double>> PhotonMap::ladder(std::span<const FieldSample> samples,
+                                                   double widest_radius_mm, std::size_t levels) const {
+  std::vector<std::vector<double>> fields(levels, std::vector<double>(samples.size()));
+  constexpr std::size_t chunk = 16;
+  tbb::parallel_for(std::size_t{0}, (samples.size() + chunk - 1) / chunk, [&](std::size_t part) {
+    RadialMoments moments(widest_radius_mm, levels);
+    std::vector<double> weights(levels);
+    for (std::size_t i = part * chunk; i < std::min(samples.size(), (part + 1) * chunk); ++i) {
+      const Vector2 at = parts_->field.to_plane(samples[i].point_mm);
+      moments.start({at.x(), at.y()});
+      parts_->side_of(samples[i].normal).add_within({at.x(), at.y()}, widest_radius_mm, moments);
+      moments.weights(weights);
+      for (std::size_t level = 0; level < levels; ++level) {
+        const double radius = moments.radius_mm(level);
+        fields[level][i] = parts_->photon_power_w / (pi * radius * radius) * weights[level] /
+                           kernel_mass_inside(Kernel::silverman, radius, parts_->area, at);
+      }
+    }
+  });
+  return fields;
 }
 
 }  // namespace catoptric::sim

@@ -270,6 +270,13 @@ PhotonFlights::PhotonFlights(const Scene& scene, const RecordedArea& area, Fligh
 }
 PhotonFlights::~PhotonFlights() = default;
 
+void PhotonFlights::record(const RecordedArea& area) {
+  parts_->area = area;
+  if (parts_->plane) parts_->plane->area = area;
+}
+
+const RecordedArea& PhotonFlights::area() const { return parts_->area; }
+
 std::uint64_t PhotonFlights::chunks(std::uint64_t photons) {
   return photons / photons_of_a_chunk + (photons % photons_of_a_chunk != 0);
 }
@@ -304,19 +311,23 @@ StoredChunk store(std::span<const Crossing> crossings, const RecordedArea& area)
   return chunk;
 }
 
-TracedPhotons trace_photons(const Scene& scene, const PhotonOptions& options, double margin_mm) {
-  TracedPhotons traced;
-  traced.area = RecordedArea::about(scene.near_field, margin_mm);
+TracedPhotons trace_photons(const PhotonFlights& flights, const PhotonOptions& options) {
   check(options);
+  TracedPhotons traced;
+  traced.area = flights.area();
   traced.chunks.resize(PhotonFlights::chunks(options.photons));
-  const FlightTotals totals =
-      PhotonFlights(scene, traced.area).fly(options, [&](std::uint64_t i, std::vector<Crossing>&& crossings) {
-        traced.chunks[i] = store(crossings, traced.area);
-      });
+  const FlightTotals totals = flights.fly(options, [&](std::uint64_t i, std::vector<Crossing>&& crossings) {
+    traced.chunks[i] = store(crossings, traced.area);
+  });
   traced.photon_power_w = totals.photon_power_w;
   traced.energy = totals.energy;
   traced.counts = totals.counts;
   return traced;
+}
+
+TracedPhotons trace_photons(const Scene& scene, const PhotonOptions& options, double margin_mm) {
+  check(options);
+  return trace_photons(PhotonFlights(scene, RecordedArea::about(scene.near_field, margin_mm)), options);
 }
 
 }  // namespace catoptric::sim

@@ -119,6 +119,10 @@ class PhotonFlights {
   PhotonFlights(const Scene& scene, const RecordedArea& area, FlightSpace space = FlightSpace::as_needed);
   ~PhotonFlights();
 
+  /// From now on crossings of another area are handed over.
+  void record(const RecordedArea& area);
+  const RecordedArea& area() const;
+
   /// Chunks of a set of so many photons.
   static std::uint64_t chunks(std::uint64_t photons);
 
@@ -138,5 +142,7 @@ class PhotonFlights {
 /// @cost  photons times one or two intersections; 17 bytes per crossing
 /// @from  paper section 4.4, stage 1
 TracedPhotons trace_photons(const Scene& scene, const PhotonOptions& options, double margin_mm);
+/// The same with flights prepared before, for several sets.
+TracedPhotons trace_photons(const PhotonFlights& flights, const PhotonOptions& options);
 
 }  // namespace catoptric::sim

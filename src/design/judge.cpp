@@ -86,8 +86,9 @@ void fill_fields(Judgement& judgement, const Rows& reflected, const Rows& sharp)
   judgement.reflected = field.mean;
   judgement.bias = blur_spread.mean;
   for (double variance : field.variance_of_mean) judgement.noise.push_back(std::sqrt(variance));
+  const double reach = student95(sharp.size());
   for (double variance : spread(sharp).variance_of_mean)
-    judgement.half_interval.push_back(student95(sharp.size()) * std::sqrt(variance));
+    judgement.half_interval.push_back(reach * std::sqrt(variance));
   judgement.field_noise_w_per_mm2 =
       std::sqrt(mean(field.variance_of_mean) * static_cast<double>(reflected.size()));
   const double blur_rms = root_mean_square(judgement.bias);

@@ -32,13 +32,12 @@ double off_in_bounds(const Profile& profile, const NearField& field, const Mater
   const auto samples = field.samples(200);
   const auto form = closed_form(scene, samples);
   REQUIRE(form);
-  LadderOptions options;
-  options.photons = {300'000, Sampler::sobol, 1, 0, 1000};
-  options.widest_radius_mm = 0.5 * widest_kernel_radius_mm(field);
-  options.levels = 8;
-  const BandwidthLadder ladder = look_with_ladder(scene, samples, options);
-  const LadderChoice choice = best_choice(ladder);
-  const auto photons = mean_of(fields_of(ladder.levels[choice.level], choice.order));
+  PhotonSets sets(scene, Rung::photons);
+  const double widest_mm = 0.5 * widest_kernel_radius_mm(field);
+  sets.fly({300'000, Sampler::sobol, 1, 0, 1000}, 4, widest_mm);
+  const BandwidthLadder ladder = sets.look(samples, widest_mm, 8);
+  const LadderChoice choice = best_choice(summary_of(ladder));
+  const auto photons = mean_of(fields_of(ladder[choice.level], choice.order));
   double square = 0;
   for (std::size_t i = 0; i < photons.size(); ++i)
     square += std::pow(photons[i] - form->reflected[i], 2) / static_cast<double>(photons.size());

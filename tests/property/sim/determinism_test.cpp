@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/units.h"
+#include "sim/accuracy.h"
 #include "sim/simulation.h"
 #include "support/analytic_reflectors.h"
 
@@ -64,6 +65,31 @@ TEST_CASE("1, 2 and 7 threads give the same bits") {
         CHECK_FALSE(same_bits(one, other));  // another stream is another set
       }
   }
+}
+
+TEST_CASE("an accuracy is reached with the same bits by 1, 2 and 7 threads") {
+  const auto mirror = test::half_ellipsoid(50, 50, 80);
+  const PointSource source({5, 0, 60}, 1);
+  const auto field = NearField::rectangle({0, 0, 0}, {0.1, 0, 1}, {1, 0, 0}, 150, 100);
+  const auto samples = field.samples(333);
+  AccuracyRequest request;
+  request.relative = 0.05;
+  request.most_photons = 200'000;
+  const auto run = [&] {
+    const AccurateField got = reach_accuracy({source, mirror, {0.7, 0.1}, field}, samples, request);
+    std::vector<double> numbers = got.reflected;
+    numbers.insert(numbers.end(), got.noise.begin(), got.noise.end());
+    for (const AccuracyStage& stage : got.stages) numbers.push_back(stage.error95_rel);
+    for (const double each : {got.kernel_radius_mm, got.energy.received_w, got.energy.emitted_w})
+      numbers.push_back(each);
+    CHECK(got.stages.size() > 1);  // sets of several stages
+    return numbers;
+  };
+  const auto one = with_threads(1, run);
+  CHECK(same_bits(one, with_threads(2, run)));
+  CHECK(same_bits(one, with_threads(7, run)));
+  request.photons.stream = 77;
+  CHECK_FALSE(same_bits(one, with_threads(2, run)));
 }
 
 TEST_CASE("the ledger adds up whatever the scene does") {

@@ -48,7 +48,7 @@ BandwidthLadder make(const Made& made) {
       at.second.push_back(second);
       at.fourth.push_back(fourth);
     }
-    ladder.levels.push_back(at);
+    ladder.push_back(at);
   }
   return ladder;
 }
@@ -56,7 +56,7 @@ BandwidthLadder make(const Made& made) {
 /// The error that a choice really has.
 double true_error(const BandwidthLadder& ladder, const LadderChoice& choice) {
   double square = 0;
-  for (const double value : mean_of(fields_of(ladder.levels[choice.level], choice.order)))
+  for (const double value : mean_of(fields_of(ladder[choice.level], choice.order)))
     square += (value - 1) * (value - 1) / samples;
   return std::sqrt(square);
 }
@@ -66,7 +66,7 @@ double true_error(const BandwidthLadder& ladder, const LadderChoice& choice) {
 TEST_CASE("without noise the bias of a smooth field is the sum of the changes to come") {
   // Geometric: what is left at a level is what all narrower levels change together, within the tail's guess.
   const BandwidthLadder ladder = make({.bias = 0.1});
-  const LadderChoice choice = best_choice(ladder);
+  const LadderChoice choice = best_choice(summary_of(ladder));
   CHECK(choice.order == 4);  // the same bias with a quarter left at each step
   CHECK(choice.noise == 0);
   CHECK(choice.level == 6);  // the last one whose change is known
@@ -86,7 +86,7 @@ TEST_CASE("the bound holds the true error for 95 % of ladders, smooth or with ju
                                   .fourth_share = fourth_share,
                                   .noise = 0.01,
                                   .seed = static_cast<std::uint64_t>(1000 + i)});
-        const LadderChoice choice = best_choice(ladder);
+        const LadderChoice choice = best_choice(summary_of(ladder));
         const double error = true_error(ladder, choice);
         held += error <= choice.error95;
         held_by_third += error <= choice.error95 / 3;
@@ -98,8 +98,8 @@ TEST_CASE("the bound holds the true error for 95 % of ladders, smooth or with ju
 }
 
 TEST_CASE("a narrow kernel is chosen where bias rules, a wide one where noise does") {
-  const LadderChoice biased = best_choice(make({.bias = 0.5, .noise = 1e-4}));
-  const LadderChoice noisy = best_choice(make({.bias = 0.001, .noise = 0.05}));
+  const LadderChoice biased = best_choice(summary_of(make({.bias = 0.5, .noise = 1e-4})));
+  const LadderChoice noisy = best_choice(summary_of(make({.bias = 0.001, .noise = 0.05})));
   CHECK(biased.level > noisy.level);
   CHECK(noisy.level == 0);
   CHECK(noisy.order == 2);
@@ -110,4 +110,35 @@ TEST_CASE("deviation of a mean over sets") {
   CHECK(mean_of(sets) == std::vector<double>{2, 5});
   CHECK(deviation_of_mean(sets)[0] == Approx(1));  // ((1-2)^2 + (3-2)^2) / (2 * 1)
   CHECK(deviation_of_mean(sets)[1] == 0);
+}
+
+TEST_CASE("more photons are expected to show the noise of fewer in a narrower kernel") {
+  const LadderSummary today = summary_of(make({.noise = 0.01}));
+  const LadderSummary twice = expected_with(today, 2);
+  REQUIRE(twice.levels.size() == today.levels.size() + 1);  // one more kernel with as many photons as before
+  for (std::size_t level = 1; level + 1 < today.levels.size(); ++level)
+    for (const std::size_t order : {0, 1}) {
+      const LadderReading &now = today.levels[level - 1].orders[order],
+                          &then = twice.levels[level].orders[order];
+      CHECK(then.variance == Approx(now.variance));
+      CHECK(then.change_variance == Approx(now.change_variance));
+    }
+  // The made noise is that of random photons: half of it with twice the photons, in a kernel of any size.
+  CHECK(twice.levels[0].orders[0].variance == Approx(0.5 * today.levels[0].orders[0].variance).epsilon(0.2));
+}
+
+TEST_CASE("the error of more photons is foreseen") {
+  // A smooth bias that the widest kernels show; photons by the factor take the noise's square down by it.
+  for (const double times : {4.0, 16.0}) {
+    const LadderSummary today = summary_of(make({.bias = 0.3, .noise = 0.01}));
+    const double expected = best_choice(expected_with(today, times)).error95;
+    const double found =
+        best_choice(
+            summary_of(make({.bias = 0.3, .noise = 0.01 / std::sqrt(times), .levels = 10, .seed = 7})))
+            .error95;
+    CAPTURE(times, expected, found);
+    CHECK(expected < 1.25 * found);
+    CHECK(found < 1.25 * expected);
+    CHECK(expected < 0.8 * best_choice(today).error95);  // wrong twin: that photons change nothing
+  }
 }

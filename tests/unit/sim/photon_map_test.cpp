@@ -148,3 +148,29 @@ TEST_CASE("a bandwidth must be set, once, and be positive") {
     CHECK_THROWS_AS(check(radius(bad)), InputError);
   CHECK_NOTHROW(check(radius(1e-9)));
 }
+
+TEST_CASE("a ladder of radii shows what each radius by itself shows") {
+  auto points = scattered(3000);
+  points.push_back({0, 0});  // on a sample: its squared distance has no binary exponent
+  points.push_back({4, 0});  // on the border of the widest kernel about that sample: no weight, nor beyond it
+  const PhotonMap map(field, put(points));
+  auto samples = field.samples(50);
+  samples.push_back(center);
+  constexpr double widest = 4;
+  constexpr std::size_t levels = 14;  // down to a kernel that holds the photon on the sample alone
+  const auto fields = map.ladder(samples, widest, levels);
+  REQUIRE(fields.size() == levels);
+  for (std::size_t level = 0; level < levels; ++level) {
+    const double narrowed = widest * std::pow(0.5, 0.5 * static_cast<double>(level));
+    const auto alone = map.estimate(samples, radius(narrowed)).irradiance;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      CHECK(fields[level][i] == Approx(alone[i]).epsilon(1e-12).margin(1e-14));
+    CHECK(fields[level].back() > 0);
+  }
+}
+
+TEST_CASE("a ladder looks at its samples' side of the plane") {
+  const PhotonMap map(field, put(scattered(100), false));
+  CHECK(map.ladder(std::vector{center}, 10, 2)[0][0] == 0);
+  CHECK(map.ladder(std::vector{FieldSample{{0, 0, 5}, {0, 0, -1}}}, 10, 2)[0][0] > 0);
+}
