@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,6 +38,7 @@ struct AccurateField {
   Rung rung = Rung::photons;
   bool proven = false;
   std::string sentence;                   ///< how it ended, in words
+  std::optional<std::string> breaks;      ///< why bias was counted as at a jump; of photons and rings
   std::vector<double> direct, reflected;  ///< W/mm^2 at the samples
   std::vector<double> noise;              ///< standard deviation of `reflected`, W/mm^2
   double noise_rel = 0, bias_rel = 0;     ///< root mean squares over that of the total irradiance

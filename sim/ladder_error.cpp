@@ -90,18 +90,21 @@ constexpr double choosers_margin = 1.1;
 /// At a jump 2^(-1/4) = 0.84 of the bias remains; more would be no convergence. Noise gets some room.
 constexpr double jump_share = 0.87;
 
+/// A share above that is one of no smooth field whose features the kernels resolve.
+constexpr double slowest_smooth = 0.6;
+
 /// Changes are looked at from the widest kernel on, where noise hides least. The share is the last one seen,
 /// or that over the last few steps where noise made the last one look better.
-std::optional<Decay> decay_of(const std::vector<Change>& changes, int order) {
+/// @in    smooth: known not to jump
+std::optional<Decay> decay_of(const std::vector<Change>& changes, int order, bool smooth) {
   constexpr std::size_t few = 3;
   std::optional<Decay> decay;
   for (std::size_t k = 0; k < changes.size() && changes[k].stands_out; ++k) {
-    double share = k > 0 ? 0.0 : jump_share;
+    double share = k > 0 ? 0.0 : smooth ? slowest_smooth : jump_share;
     for (std::size_t steps = 1; steps <= std::min(k, few); ++steps)
       share = std::max(share,
                        std::pow(changes[k].seen / changes[k - steps].seen, 1.0 / static_cast<double>(steps)));
     // Slower than any smooth field: a jump, whose share noise must not make smaller.
-    constexpr double slowest_smooth = 0.6;
     const std::size_t back = std::min(k, few);
     const double mean =
         back == 0 ? 0.0 : std::pow(changes[k].seen / changes[k - back].seen, 1.0 / static_cast<double>(back));
@@ -172,9 +175,10 @@ const SetFields& fields_of(const LadderLevel& level, int order) {
   return order == 2 ? level.second : level.fourth;
 }
 
-LadderSummary summary_of(const BandwidthLadder& ladder) {
+LadderSummary summary_of(const BandwidthLadder& ladder, bool smooth) {
   CATOPTRIC_EXPECTS(ladder.size() >= 2 && ladder.front().second.size() >= 2);
   LadderSummary summary;
+  summary.smooth = smooth;
   for (std::size_t level = 0; level < ladder.size(); ++level) {
     const LadderLevel& at = ladder[level];
     LadderSummary::Level& read = summary.levels.emplace_back();
@@ -194,13 +198,16 @@ LadderSummary summary_of(const BandwidthLadder& ladder) {
 LadderChoice best_choice(const LadderSummary& ladder) {
   LadderChoice best;
   best.error95 = HUGE_VAL;
-  double least_share = smooth_share(2);
+  double seen_share = 0;  // of the second order's changes, if they stand out
   for (std::size_t i = 0; i < orders.size(); ++i) {
     const int order = orders[i];
     const std::vector<Change> changes = changes_of(ladder, i);
-    const auto decay = decay_of(changes, order);
-    // What is a jump to a kernel of second order is one to a kernel of fourth.
-    if (order == 4) least_share = least_share > 1.2 * smooth_share(2) ? least_share : smooth_share(4);
+    const auto decay = decay_of(changes, order, ladder.smooth);
+    // What is a jump to a kernel of second order is one to a kernel of fourth; where nothing is seen of the
+    // field, it may have jumps.
+    double least_share = smooth_share(order);
+    if (seen_share > slowest_smooth) least_share = seen_share;
+    if (!decay && seen_share == 0 && !ladder.smooth) least_share = jump_share;
     for (std::size_t level = 0; level < changes.size(); ++level) {
       const double variance = ladder.levels[level].orders[i].variance;
       LadderChoice choice{level, order, std::sqrt(variance), bias_bound(changes, level, decay, least_share),
@@ -209,7 +216,7 @@ LadderChoice best_choice(const LadderSummary& ladder) {
           choosers_margin * std::sqrt(variance * ladder.levels[level].excess + choice.bias * choice.bias);
       if (choice.error95 < best.error95) best = choice;
     }
-    if (order == 2 && decay) least_share = std::max(least_share, decay->share);
+    if (decay) seen_share = decay->share;
   }
   return best;
 }
@@ -221,7 +228,7 @@ LadderSummary expected_with(const LadderSummary& ladder, double times_the_photon
   for (double more = shift; more >= 1; --more) expected.levels.push_back(ladder.levels.back());
   for (std::size_t i = 0; i < orders.size(); ++i) {
     const std::vector<Change> changes = changes_of(ladder, i);
-    const auto decay = decay_of(changes, orders[i]);
+    const auto decay = decay_of(changes, orders[i], ladder.smooth);
     std::vector<double> variances, change_variances;
     for (const auto& level : ladder.levels) {
       variances.push_back(level.orders[i].variance);

@@ -28,10 +28,11 @@ struct LadderSummary {
     std::array<LadderReading, 2> orders;  ///< second and fourth
   };
   std::vector<Level> levels;  ///< widest first
+  bool smooth = false;        ///< the field is known to have no jumps, folds or foci
 };
 
-/// @in two levels and two sets at least
-LadderSummary summary_of(const BandwidthLadder& ladder);
+/// @in two levels and two sets at least; smooth: what is known of the field (see field_breaks.h)
+LadderSummary summary_of(const BandwidthLadder& ladder, bool smooth);
 
 /// One way to read a ladder: a level, and which of its two estimates.
 struct LadderChoice {
@@ -47,9 +48,9 @@ struct LadderChoice {
 /// Noise comes from the spread of the sets. Its mean square over the samples is known as well as the number
 /// of independent kernels allows, so the 95 % bound is that of an F distribution. Bias is the sum of what
 /// each further narrowing changes, as far as the changes stand out of their own noise; from there on they are
-/// continued as the geometric series that the last ones make (a quarter or half a step for smooth fields,
-/// more at jumps). Where not even the widest kernel shows a change, that is taken which noise could hide, and
-/// the field is taken for smooth.
+/// continued as the geometric series that the last ones make: a quarter or half a step where they show, or
+/// where it is known, that the field is smooth, else as slowly as at a jump. Where not even the widest kernel
+/// shows a change, that is taken which noise could hide.
 /// @from  Lepski 1991 for the comparison of bandwidths
 LadderChoice best_choice(const LadderSummary& ladder);
 

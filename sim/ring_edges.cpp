@@ -1,50 +1,13 @@
 #include "sim/ring_edges.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "base/profile.h"
 #include "base/tolerance.h"
 #include "sim/scatter.h"
+#include "sim/smooth_stretches.h"
 
 namespace catoptric::sim {
 namespace {
-
-double curvature(const MeridianPoint& at) {
-  const double speed = std::hypot(at.dr, at.dz);
-  return (at.dr * at.ddz - at.dz * at.ddr) / (speed * speed * speed);
-}
-
-/// Whether light on either side of the joint goes on differently. A joint that is smooth but taken for a jump
-/// costs some noise, a jump taken for smooth is blurred: so rounding is given little room.
-bool jumps(const MeridianPoint& before, const MeridianPoint& after, double size_mm) {
-  constexpr double smooth = 1e-9;  // second derivatives of spans in Bernstein form are good to some 1e-12
-  const double turn = before.dr * after.dz - before.dz * after.dr;
-  const double speeds = std::hypot(before.dr, before.dz) * std::hypot(after.dr, after.dz);
-  return !(std::abs(turn) <= smooth * speeds) ||
-         !(std::abs(curvature(before) - curvature(after)) * size_mm <= smooth);
-}
-
-/// Places of the generatrix whose rays bound a bundle, with the tangent on each side.
-std::vector<MeridianPoint> edges_of(const Profile& profile) {
-  std::vector<MeridianPoint> edges;
-  const double size_mm = profile.diagonal_mm(), on_axis_mm = Tolerance::for_scale(size_mm).length_mm;
-  const auto& spans = profile.spans();
-  for (std::size_t i = 0; i < spans.size(); ++i) {
-    const MeridianPoint first = evaluate(spans[i], 0), last = evaluate(spans[i], 1);
-    if (i == 0 && first.r_mm > on_axis_mm) edges.push_back(first);
-    if (i + 1 == spans.size()) {
-      if (last.r_mm > on_axis_mm) edges.push_back(last);
-      continue;
-    }
-    const MeridianPoint next = evaluate(spans[i + 1], 0);
-    if (jumps(last, next, size_mm)) {
-      edges.push_back(last);
-      edges.push_back(next);
-    }
-  }
-  return edges;
-}
 
 class EdgeRays {
  public:
@@ -91,7 +54,10 @@ class EdgeRays {
 
 std::vector<double> edge_landing_squares(const Scene& scene) {
   EdgeRays rays(scene);
-  for (const MeridianPoint& edge : edges_of(scene.reflector.profile())) rays.start(edge);
+  for (const SmoothStretch& stretch : smooth_stretches(scene.reflector.profile())) {
+    if (stretch.edge_at_begin) rays.start(stretch.begin);
+    if (stretch.edge_at_end) rays.start(stretch.end);
+  }
   return rays.take();
 }
 

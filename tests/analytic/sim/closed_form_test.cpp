@@ -36,7 +36,7 @@ double off_in_bounds(const Profile& profile, const NearField& field, const Mater
   const double widest_mm = 0.5 * widest_kernel_radius_mm(field);
   sets.fly({300'000, Sampler::sobol, 1, 0, 1000}, 4, widest_mm);
   const BandwidthLadder ladder = sets.look(samples, widest_mm, 8);
-  const LadderChoice choice = best_choice(summary_of(ladder));
+  const LadderChoice choice = best_choice(summary_of(ladder, false));
   const auto photons = mean_of(fields_of(ladder[choice.level], choice.order));
   double square = 0;
   for (std::size_t i = 0; i < photons.size(); ++i)

@@ -34,10 +34,18 @@ std::vector<double> truth(const Scene& scene, const Profile& profile,
 
 struct Kept {
   int proven = 0, held = 0, held_by_fifth = 0;
+  int within = 0;  ///< of the error that was stated
 };
 
-Kept keep(const std::string& file, double accuracy, std::uint64_t seeds, sim::Rung expected) {
-  Scene scene = read_scene(data + file, {{"accuracy", std::to_string(accuracy), "test"}});
+/// The leaning screen moved to where the beam's edge crosses it.
+const std::string across_the_edge = "[70, 0, -40]";
+
+/// @in center: of the near field, in place of the file's
+Kept keep(const std::string& file, double accuracy, std::uint64_t seeds, sim::Rung expected,
+          const std::string& center = "") {
+  std::vector<Override> overrides{{"accuracy", std::to_string(accuracy), "test"}};
+  if (!center.empty()) overrides.push_back({"near_field.center", center, "test"});
+  Scene scene = read_scene(data + file, overrides);
   const Profile profile = start_profile(scene);
   const Target target{scene.near_field.samples(scene.samples), {}};
   const std::vector<double> exact = truth(scene, profile, target.samples, accuracy);
@@ -51,8 +59,18 @@ Kept keep(const std::string& file, double accuracy, std::uint64_t seeds, sim::Ru
         root_mean_square_error(sum(judged.direct, judged.reflected), exact) / root_mean_square(exact);
     kept.held += error <= accuracy;
     kept.held_by_fifth += error <= accuracy / 5;
+    kept.within += error <= judged.accuracy->error95_rel;
   }
   return kept;
+}
+
+void check_hundred(const std::string& file, double accuracy, sim::Rung rung, const std::string& center) {
+  const Kept kept = keep(file, accuracy, 100, rung, center);
+  std::printf("%-32s %-15s accuracy %.3f: proven %d, held %d, within what was stated %d of 100\n",
+              file.c_str(), center.c_str(), accuracy, kept.proven, kept.held, kept.within);
+  CHECK(kept.proven == 100);
+  CHECK(kept.held >= 95);
+  CHECK(kept.within >= 90);  // 95 expected at least, less 2.3 standard deviations
 }
 
 }  // namespace
@@ -69,6 +87,17 @@ TEST_CASE("an accuracy that is proven holds in 95 of 100 seeds: a few seeds of t
   }
 }
 
+TEST_CASE("what is stated of a field with a jump holds too: bias is counted as a jump's") {
+  constexpr int seeds = 20;
+  for (const double accuracy : {0.1, 0.05}) {
+    const Kept kept =
+        keep("/examples/tilted_screen.toml", accuracy, seeds, sim::Rung::photons, across_the_edge);
+    CHECK(kept.proven == seeds);
+    // Fewer than 16 of 20 would come in 0.03 % of the cases; with a smooth field's bias it was half of them.
+    CHECK(kept.within >= 16);
+  }
+}
+
 TEST_CASE("an accuracy holds in 95 of 100 seeds on every example scene", "[.long]") {
   struct Case {
     const char* file;
@@ -79,11 +108,7 @@ TEST_CASE("an accuracy holds in 95 of 100 seeds on every example scene", "[.long
         Case{"/examples/source_aside.toml", sim::Rung::photons},
         Case{"/examples/diffusing_floor.toml", sim::Rung::rings},
         Case{"/paper/paraboloid.toml", sim::Rung::tubes}, Case{"/paper/start_c.toml", sim::Rung::tubes}})
-    for (const double accuracy : {0.05, 0.02, 0.01, 0.005}) {
-      const Kept kept = keep(each.file, accuracy, 100, each.rung);
-      std::printf("%-32s accuracy %.3f: proven %d, held %d of 100\n", each.file, accuracy, kept.proven,
-                  kept.held);
-      CHECK(kept.proven == 100);
-      CHECK(kept.held >= 95);
-    }
+    for (const double accuracy : {0.05, 0.02, 0.01, 0.005}) check_hundred(each.file, accuracy, each.rung, "");
+  for (const double accuracy : {0.1, 0.05})
+    check_hundred("/examples/tilted_screen.toml", accuracy, sim::Rung::photons, across_the_edge);
 }
