@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "sim/radial_panels.h"
 #include "sim/sign_changes.h"
+#include "sim/tube_halves.h"
 
 namespace catoptric::sim {
 namespace {
@@ -180,82 +181,132 @@ class PointwiseAdder {
  public:
   PointwiseAdder(const TubeTracer& tracer, double power_w, double tolerance, int most_rays,
                  std::span<const double> radii_mm, std::vector<double>& values)
-      : polisher_(tracer, power_w, most_rays),
+      : tracer_(tracer),
+        polisher_(tracer, power_w, most_rays),
         power_w_(power_w),
-        tolerance_(tolerance),
+        tolerance_(share * tolerance),
+        most_rays_(most_rays),
         radii_(radii_mm),
         values_(values),
         errors_(radii_mm.size(), 0.0) {}
 
-  void add(const Tube& tube) {
+  /// By the tube alone where that is within the tolerance; else by its halves, as long as these save rays;
+  /// else with rays for each radius.
+  void add(const Tube& tube, int depth = 0) {
     const AxialEnd axis = axial_end(tube);
+    const std::vector<Band> bands = bands_of(tube);
+    std::vector<Sum> sums;
+    std::size_t left = 0;  // radii for which the tube does not suffice
+    for (const Band& band : bands) {
+      sums.push_back(by_tube(tube, band, axis));
+      if (!sums.back().suffices) left += band.end - band.first;
+    }
+    // A radius takes some three rays. Where branches meet in a fold, halves never suffice: the depth ends it.
+    constexpr int most_depth = 16;
+    if (tolerance_ > 0 && 3 * left > 2 * rays_of_halving && depth < most_depth &&
+        rays_ + rays_of_halving <= most_rays_) {
+      rays_ += rays_of_halving;
+      if (const auto halves = halves_of(tube, tracer_)) {
+        for (const Tube& half : *halves) add(half, depth + 1);
+        return;
+      }
+    }
     for (std::size_t k = 0; axis.exists && k < radii_.size() && radii_[k] <= std::abs(axis.rho); ++k)
       values_[k] += tube.weight * branch_irradiance(power_w_, axis.polar, 0, axis.slope, axis);
-    const Stretches stretches = monotone_stretches(tube);
-    for (std::size_t i = 0; i < stretches.count; ++i) {
-      const Stretch& stretch = stretches.part[i];
-      const auto from = std::lower_bound(radii_.begin(), radii_.end(), stretch.inner()),
-                 to = std::upper_bound(from, radii_.end(), stretch.outer());
-      if (from == to) continue;
-      const auto first = static_cast<std::size_t>(from - radii_.begin()),
-                 end = static_cast<std::size_t>(to - radii_.begin());
-      for (const double side : {1.0, -1.0})
-        if (!add_by_tube(tube, stretch, axis, side, first, end))
-          add_by_rays(tube, stretch, axis, side, first, end);
+    for (std::size_t i = 0; i < bands.size(); ++i) {
+      if (sums[i].suffices)
+        take(bands[i], sums[i]);
+      else
+        add_by_rays(tube, bands[i], axis);
     }
   }
 
-  PointwiseSum sum() const { return {*std::max_element(errors_.begin(), errors_.end()), polisher_.rays()}; }
+  PointwiseSum sum() const {
+    return {*std::max_element(errors_.begin(), errors_.end()), rays_ + polisher_.rays()};
+  }
 
  private:
+  /// The radii [first, end) at which a stretch lands on one side of the axis.
+  struct Band {
+    Stretch stretch;
+    double side;
+    std::size_t first, end;
+  };
+
+  /// What a tube gives at a band's radii.
+  struct Sum {
+    bool suffices = false;
+    std::vector<double> values = {};
+    double error = 0;
+  };
+
   /// Half-open, so that a radius at a common end belongs to one tube; radius 0 belongs to the side +.
   static bool lands(const Stretch& stretch, double rho) {
     return (stretch.rho_first < rho) != (stretch.rho_last < rho) && !(rho == 0 && std::signbit(rho));
   }
 
-  /// The part of the radii [first, end) at which the stretch lands on that side.
-  void shrink(const Stretch& stretch, double side, std::size_t& first, std::size_t& end) const {
-    while (first < end && !lands(stretch, side * radii_[first])) ++first;
-    while (first < end && !lands(stretch, side * radii_[end - 1])) --end;
+  std::vector<Band> bands_of(const Tube& tube) const {
+    std::vector<Band> bands;
+    const Stretches stretches = monotone_stretches(tube);
+    for (std::size_t i = 0; i < stretches.count; ++i) {
+      const Stretch& stretch = stretches.part[i];
+      const auto from = std::lower_bound(radii_.begin(), radii_.end(), stretch.inner()),
+                 to = std::upper_bound(from, radii_.end(), stretch.outer());
+      for (const double side : {1.0, -1.0}) {
+        Band band{stretch, side, static_cast<std::size_t>(from - radii_.begin()),
+                  static_cast<std::size_t>(to - radii_.begin())};
+        while (band.first < band.end && !lands(stretch, side * radii_[band.first])) ++band.first;
+        while (band.first < band.end && !lands(stretch, side * radii_[band.end - 1])) --band.end;
+        if (band.first < band.end) bands.push_back(band);
+      }
+    }
+    return bands;
   }
 
-  /// By the tube alone; false where that is not within the tolerance.
-  bool add_by_tube(const Tube& tube, const Stretch& stretch, const AxialEnd& axis, double side,
-                   std::size_t first, std::size_t end) {
-    if (!(tolerance_ > 0)) return false;
-    shrink(stretch, side, first, end);
-    if (first == end) return true;
-    TubeIrradiance irradiance(tube, stretch, power_w_, axis);
+  Sum by_tube(const Tube& tube, const Band& band, const AxialEnd& axis) const {
+    if (!(tolerance_ > 0)) return {};
+    TubeIrradiance irradiance(tube, band.stretch, power_w_, axis);
+    // Errors are greatest at one end, where branches meet or the axis is near: most tubes fail there at once.
+    irradiance.at(band.side * radii_[band.first]);
+    irradiance.at(band.side * radii_[band.end - 1]);
+    if (!(irradiance.worst_error() <= tolerance_)) return {};
     const RadialFunction function{1, [&](std::span<const double> at, std::span<double> values) {
                                     for (std::size_t k = 0; k < at.size(); ++k)
-                                      values[k] = irradiance.at(side * at[k]);
+                                      values[k] = irradiance.at(band.side * at[k]);
                                   }};
     // One tube of some may take this share of the tolerance for being interpolated.
     const double allowed[] = {0.1 * tolerance_};
-    const RadialValues found =
-        interpolate(function, radii_.subspan(first, end - first), {}, HUGE_VAL, allowed);
+    RadialValues found =
+        interpolate(function, radii_.subspan(band.first, band.end - band.first), {}, HUGE_VAL, allowed);
     const double error = irradiance.worst_error() + found.error[0];
-    if (!(error <= tolerance_)) return false;
-    for (std::size_t k = first; k < end; ++k) {
-      values_[k] += found.values[k - first];
-      errors_[k] += error;
-    }
-    return true;
+    return {error <= tolerance_, std::move(found.values), error};
   }
 
-  void add_by_rays(const Tube& tube, const Stretch& stretch, const AxialEnd& axis, double side,
-                   std::size_t first, std::size_t end) {
-    for (std::size_t k = first; k < end; ++k) {
-      const double rho = side * radii_[k];
-      if (!lands(stretch, rho)) continue;
-      const Found found = polisher_.irradiance(tube, axis, tube.theta_rad(place_of(tube, stretch, rho)), rho);
+  void take(const Band& band, const Sum& sum) {
+    for (std::size_t k = band.first; k < band.end; ++k) {
+      values_[k] += sum.values[k - band.first];
+      errors_[k] += sum.error;
+    }
+  }
+
+  void add_by_rays(const Tube& tube, const Band& band, const AxialEnd& axis) {
+    for (std::size_t k = band.first; k < band.end; ++k) {
+      const double rho = band.side * radii_[k];
+      if (!lands(band.stretch, rho)) continue;
+      const Found found =
+          polisher_.irradiance(tube, axis, tube.theta_rad(place_of(tube, band.stretch, rho)), rho);
       values_[k] += found.value;
       errors_[k] += found.error;
     }
   }
 
+  /// Of the tolerance, for one of the branches that land at a radius.
+  static constexpr double share = 0.3;
+
+  const TubeTracer& tracer_;
   Polisher polisher_;
   double power_w_, tolerance_;
+  int most_rays_, rays_ = 0;  ///< of halvings
   std::span<const double> radii_;
   std::vector<double>& values_;
   std::vector<double> errors_;

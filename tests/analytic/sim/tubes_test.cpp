@@ -129,6 +129,23 @@ TEST_CASE("a tolerance spares the rays that polish", "[tubes]") {
   }
 }
 
+TEST_CASE("a tolerance spares rays at folds too", "[tubes]") {
+  // The paper's start A, whose beam is folded inside the field: against every branch polished by rays.
+  const Profile start_a = Profile::bezier({{0, 100, 1}, {50, 100, 1.6}, {90, 50, 1}});
+  const std::vector<double> radii = steps(0, 110, 1024);
+  const TubesField polished = tubes_field(focus, start_a, {}, ground, radii, {});
+  TubesOptions options;
+  options.pointwise_tolerance_w_per_mm2 = from_w_per_m2(5e-7);
+  const TubesField field = tubes_field(focus, start_a, {}, ground, radii, options);
+  CHECK(field.rays < polished.rays / 5);
+  CHECK(field.error_w_per_mm2 <= from_w_per_m2(5e-7));
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    INFO("r " << radii[i]);
+    CHECK(std::abs(field.irradiance[i] - polished.irradiance[i]) <=
+          field.error_w_per_mm2 + 1e-9 * polished.irradiance[i]);
+  }
+}
+
 TEST_CASE("tubes reach the paraboloid smoothed, over its sharp rim", "[tubes]") {
   const auto mirror = test::paraboloid(a_mm);
   const std::vector<double> radii = steps(0, 120, 31);
