@@ -37,6 +37,14 @@ struct CurveSource {
   std::vector<SourceCurve> curves;  ///< free curves, or else meridians of faces
   std::vector<gp_Ax1> face_axes;    ///< axes of all faces of revolution
   std::vector<Refusal> refused;     ///< what could not be converted
+
+  /// Takes the axes of the faces, and where there is no free curve, their meridians.
+  void add_meridians(CurveSource from_faces) {
+    face_axes = std::move(from_faces.face_axes);
+    if (!curves.empty()) return;
+    curves = std::move(from_faces.curves);
+    refused.insert(refused.end(), from_faces.refused.begin(), from_faces.refused.end());
+  }
 };
 
 /// @fails CadError when the file is broken

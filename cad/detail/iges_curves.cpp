@@ -188,11 +188,7 @@ CurveSource read_iges_curves(const std::filesystem::path& file) {
     }
     CurveSource from_faces;
     add_faces(file, model, from_faces);
-    source.face_axes = from_faces.face_axes;
-    if (source.curves.empty()) {
-      source.curves = std::move(from_faces.curves);
-      source.refused.insert(source.refused.end(), from_faces.refused.begin(), from_faces.refused.end());
-    }
+    source.add_meridians(std::move(from_faces));
     return source;
   });
 }

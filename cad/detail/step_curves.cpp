@@ -74,11 +74,7 @@ CurveSource read_step_curves(const std::filesystem::path& file) {
     add_free_curves(shape, source);
     CurveSource from_faces;
     add_faces_of_revolution(shape, from_faces);
-    source.face_axes = from_faces.face_axes;
-    if (source.curves.empty()) {
-      source.curves = std::move(from_faces.curves);
-      source.refused.insert(source.refused.end(), from_faces.refused.begin(), from_faces.refused.end());
-    }
+    source.add_meridians(std::move(from_faces));
     return source;
   });
 }

@@ -1,16 +1,10 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/atomic_file.h"
-#include "cli/commands.h"
-#include "cli/progress_line.h"
-#include "cli/stop_signal.h"
+#include "cli/scene_run.h"
 #include "design/csv_table.h"
-#include "design/thread_limit.h"
-#include "report/run_files.h"
 
 namespace catoptric::cli {
 namespace {
@@ -30,18 +24,14 @@ report::SearchPath read_path(const std::filesystem::path& file, const std::vecto
 }  // namespace
 
 ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions& more) {
-  const design::Scene scene = design::read_scene(options.input, options.overrides());
+  SceneRun run(options);
+  const design::Scene& scene = run.scene;
   std::vector<report::SearchPath> paths;
   if (scene.landscape)
     for (const auto& file : more.paths) paths.push_back(read_path(file, scene.landscape->variables));
-  const std::filesystem::path out = options.out_folder();
-  prepare_output_folder(out);
-  const design::ThreadLimit limit(scene.threads);
-  ProgressLine line(options.quiet, scene.search.metric == design::Metric::rmse ? "W/m^2" : "");
-  const design::RunControl control{&stop_on_signal(), [&](const design::Progress& p) { line.show(p); }};
-  const design::Landscape result = design::run_landscape(scene, control);
-  const auto files = report::write_landscape(scene, result, paths, out);
-  line.finish();
+  const design::Landscape result = design::run_landscape(scene, run.control);
+  const auto files = report::write_landscape(scene, result, paths, run.out);
+  run.line.finish();
   if (options.quiet) return ExitCode::done;
   const auto best =
       std::min_element(result.objective.begin(), result.objective.end(),
@@ -52,8 +42,7 @@ ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions&
              name(scene.search.metric), *best, result.names[0], result.axes[0][at / columns]);
   if (result.axes.size() > 1) fmt::print(", {} = {:.6g}", result.names[1], result.axes[1][at % columns]);
   fmt::print("\n");
-  for (const std::string& note : files.notes) fmt::print("note: {}\n", note);
-  fmt::print("written to {}: {}\n", out.string(), fmt::join(files.names, ", "));
+  run.print_files(files);
   return ExitCode::done;
 }
 

@@ -1,15 +1,12 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <chrono>
 #include <future>
 
 #include "base/atomic_file.h"
 #include "cli/commands.h"
-#include "cli/progress_line.h"
+#include "cli/scene_run.h"
 #include "cli/stop_signal.h"
-#include "design/thread_limit.h"
-#include "report/run_files.h"
 
 namespace catoptric::cli {
 namespace {
@@ -92,8 +89,7 @@ ExitCode study_command(const CommonOptions& options) {
   const auto files = report::write_study(list, rows, seconds, out);
   if (!options.quiet) {
     fmt::print("{}\n{}{:.1f} s in all\n", list.title, report::text_table(report::study_table(rows)), seconds);
-    for (const std::string& note : files.notes) fmt::print("note: {}\n", note);
-    fmt::print("written to {}: {} and a folder per run\n", out.string(), fmt::join(files.names, ", "));
+    print_files(files, out, " and a folder per run");
   }
   return exit_code(rows, control.stopped());
 }
