@@ -14,12 +14,13 @@ struct RingEstimate {
   double second_poisson = 0;                        ///< variance of `second` for independent photons
 };
 
-/// @in  the power of a photon of each set, W
-RingEstimate ring_estimate(const RingDensities& densities, std::span<const double> powers);
+/// @in  one of the densities' places; the power of a photon of each set, W
+RingEstimate ring_estimate(const RingDensities& densities, std::size_t place, std::span<const double> powers);
 
 /// The bandwidth in r^2 with the least estimated mean integrated squared error over [0, cover]: the variance
 /// is that of the replicates, so that Sobol points get the narrow kernels they deserve, the squared bias is
 /// the squared difference to the fourth order less its own noise.
-double choose_bandwidth(RingStore& store, std::span<const double> powers, RingKernel kernel, double cover);
+double choose_bandwidth(const RingStore& store, std::span<const double> powers, RingKernel kernel,
+                        double cover);
 
 }  // namespace catoptric::sim

@@ -1,8 +1,6 @@
 #include "sim/rings.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <boost/math/distributions/normal.hpp>
@@ -17,6 +15,7 @@
 #include "sim/edge_correction.h"
 #include "sim/plane_flights.h"
 #include "sim/ring_bandwidth.h"
+#include "sim/ring_counts.h"
 #include "sim/ring_edges.h"
 #include "sim/ring_smoothing.h"
 #include "sim/ring_store.h"
@@ -166,21 +165,18 @@ void estimate_all(const RingStore& store, std::span<const double> powers, std::s
   for (auto* part : {&field.irradiance, &field.noise, &field.poisson_noise, &field.bias, &field.debiased,
                      &field.debiased_noise})
     part->resize(count);
-  constexpr std::size_t chunk = 64;
-  tbb::parallel_for(std::size_t{0}, (count + chunk - 1) / chunk, [&](std::size_t part) {
-    RingDensities densities;
-    for (std::size_t i = part * chunk; i < std::min(count, (part + 1) * chunk); ++i) {
-      const double s = std::min(radii_mm[i] * radii_mm[i], store.end());
-      store.estimate(s, options.kernel, field.bandwidth_mm2, densities);
-      const RingEstimate at = ring_estimate(densities, powers);
-      field.bias[i] = at.second - at.fourth;
-      field.irradiance[i] = std::max(0.0, at.second);
-      field.noise[i] = std::sqrt(at.second_variance);
-      field.poisson_noise[i] = std::sqrt(at.second_poisson);
-      field.debiased[i] = std::max(0.0, at.fourth);
-      field.debiased_noise[i] = std::sqrt(at.fourth_variance);
-    }
-  });
+  std::vector<double> places(count);
+  for (std::size_t i = 0; i < count; ++i) places[i] = std::min(radii_mm[i] * radii_mm[i], store.end());
+  const RingDensities densities = store.estimate(places, options.kernel, field.bandwidth_mm2);
+  for (std::size_t i = 0; i < count; ++i) {
+    const RingEstimate at = ring_estimate(densities, i, powers);
+    field.bias[i] = at.second - at.fourth;
+    field.irradiance[i] = std::max(0.0, at.second);
+    field.noise[i] = std::sqrt(at.second_variance);
+    field.poisson_noise[i] = std::sqrt(at.second_poisson);
+    field.debiased[i] = std::max(0.0, at.fourth);
+    field.debiased_noise[i] = std::sqrt(at.fourth_variance);
+  }
 }
 
 }  // namespace
@@ -261,7 +257,6 @@ RingsField RingPhotons::estimate(std::span<const double> radii_mm, double bandwi
   check_radii(parts_->cover_mm, radii_mm);
   RingsField field = parts_->landed;
   field.bandwidth_mm2 = bandwidth_mm2;
-  parts_->store->prepare(bandwidth_mm2);
   estimate_all(*parts_->store, parts_->powers, radii_mm, parts_->options, field);
   field.memory_bytes = parts_->store->memory_bytes();
   return field;

@@ -1,0 +1,146 @@
+#include "sim/ring_counts.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+
+namespace catoptric::sim {
+namespace {
+
+/// Bins across one bandwidth after merging: the bins then widen a kernel of variance h^2/7 by h^2/3000.
+constexpr double bins_per_bandwidth = 16;
+/// Of a segment; merged bins never outnumber twice bins_per_bandwidth or a whole segment of these.
+constexpr std::size_t fewest_bins = RingNodes::most_bins_per_bandwidth;
+
+}  // namespace
+
+CountedRings::CountedRings(std::vector<double> cuts, std::size_t sets, std::size_t bins)
+    : RingStore(std::move(cuts), sets) {
+  for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
+    const double width = cuts_[i + 1] - cuts_[i];
+    const double share = static_cast<double>(bins) * width / end();
+    const std::size_t count =
+        std::max(fewest_bins, std::bit_ceil(static_cast<std::size_t>(std::ceil(share))));
+    segments_.push_back({cuts_[i], width, static_cast<double>(count) / width, count, bins_});
+    bins_ += count;
+  }
+  counts_ = std::vector<std::atomic<std::uint64_t>>(bins_ * sets_);
+}
+
+void CountedRings::add(std::size_t set, std::uint64_t, std::span<const double> squares) {
+  std::atomic<std::uint64_t>* const counts = counts_.data() + set * bins_;
+  for (double s : squares) {
+    if (!(s <= end())) continue;
+    const Segment& segment = segments_[segment_of(s)];
+    const std::size_t bin =
+        std::min(segment.bins - 1, static_cast<std::size_t>((s - segment.low) * segment.per_mm2));
+    counts[segment.first + bin].fetch_add(1, std::memory_order_relaxed);
+  }
+}
+
+void CountedRings::close() {
+  before_.resize(sets_ * (bins_ + 1));
+  for (std::size_t set = 0; set < sets_; ++set) {
+    const auto* counts = counts_.data() + set * bins_;
+    auto* before = before_.data() + set * (bins_ + 1);
+    std::uint64_t sum = 0;
+    for (std::size_t bin = 0; bin < bins_; ++bin) {
+      before[bin] = sum;
+      sum += counts[bin].load(std::memory_order_relaxed);
+    }
+    before[bins_] = sum;
+  }
+  counts_ = decltype(counts_)();
+}
+
+std::uint64_t CountedRings::photons_in(std::size_t set, std::size_t first, std::size_t last) const {
+  const auto* before = before_.data() + set * (bins_ + 1);
+  return before[last] - before[first];
+}
+
+double CountedRings::least_bandwidth() const {
+  double widest_bin = 0;
+  for (const Segment& segment : segments_) widest_bin = std::max(widest_bin, 1 / segment.per_mm2);
+  return fewest_bins_per_bandwidth * widest_bin;
+}
+
+std::size_t CountedRings::memory_bytes() const { return before_.size() * sizeof(before_[0]); }
+
+RingStore::Places CountedRings::places(std::size_t set, double widest) const {
+  Places places;
+  for (const Segment& segment : segments_) {
+    const std::size_t wanted = std::bit_floor(static_cast<std::size_t>(
+        std::clamp(widest * segment.per_mm2, 1.0, static_cast<double>(segment.bins))));
+    const double width = static_cast<double>(wanted) / segment.per_mm2;
+    for (std::size_t bin = 0; bin < segment.bins; bin += wanted) {
+      places.squares.push_back(segment.low + (static_cast<double>(bin / wanted) + 0.5) * width);
+      places.photons.push_back(
+          static_cast<double>(photons_in(set, segment.first + bin, segment.first + bin + wanted)));
+    }
+  }
+  return places;
+}
+
+RingBins CountedRings::merged(const Segment& segment, double bandwidth) const {
+  const double wanted =
+      std::min(bins_per_bandwidth * segment.width / bandwidth, static_cast<double>(segment.bins));
+  RingBins merged;
+  merged.bins = std::max(fewest_bins, std::bit_ceil(static_cast<std::size_t>(wanted)));
+  merged.bins = std::min(segment.bins, merged.bins);
+  merged.bin_width = segment.width / static_cast<double>(merged.bins);
+  merged.row = RingBins::row_of(sets_);
+  merged.counts.resize(merged.bins * merged.row);
+  const std::size_t factor = segment.bins / merged.bins;
+  for (std::size_t set = 0; set < sets_; ++set)
+    for (std::size_t bin = 0; bin < merged.bins; ++bin) {
+      const std::size_t first = segment.first + bin * factor;
+      merged.counts[bin * merged.row + set] = static_cast<double>(photons_in(set, first, first + factor));
+    }
+  return merged;
+}
+
+RingDensities CountedRings::estimate(std::span<const double> places, RingKernel kernel,
+                                     double bandwidth) const {
+  return read(places, kernel, bandwidth, &RingNodes::between);
+}
+
+RingDensities CountedRings::estimate_near(std::span<const double> places, RingKernel kernel,
+                                          double bandwidth) const {
+  return read(places, kernel, bandwidth, &RingNodes::nearest);
+}
+
+RingDensities CountedRings::read(std::span<const double> places, RingKernel kernel, double bandwidth,
+                                 ReadingOf reading_of) const {
+  std::vector<std::optional<RingNodes>> nodes(segments_.size());
+  struct Where {
+    std::size_t segment;
+    RingNodes::Reading reading;
+  };
+  std::vector<Where> where;
+  where.reserve(places.size());
+  for (double s : places) {
+    const std::size_t i = segment_of(s);
+    const Segment& segment = segments_[i];
+    if (!nodes[i]) {
+      const double own = std::min(bandwidth, segment.width);
+      nodes[i].emplace(merged(segment, own), kernel, own);
+    }
+    const double place = (s - segment.low) / nodes[i]->bin_width();
+    where.push_back({i, ((*nodes[i]).*reading_of)(place)});
+    nodes[i]->want(where.back().reading);
+  }
+  for (auto& each : nodes)
+    if (each) each->estimate();
+  RingDensities out(places.size(), sets_);
+  constexpr std::size_t chunk = 512;
+  tbb::parallel_for(std::size_t{0}, (places.size() + chunk - 1) / chunk, [&](std::size_t part) {
+    for (std::size_t i = part * chunk; i < std::min(places.size(), (part + 1) * chunk); ++i)
+      nodes[where[i].segment]->read(where[i].reading, i, out);
+  });
+  return out;
+}
+
+}  // namespace catoptric::sim

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "sim/ring_nodes.h"
+#include "sim/ring_store.h"
+
+namespace catoptric::sim {
+
+/// Photons counted in even bins of each segment: memory does not grow with the photons, and whole numbers
+/// make the counts the same in any order.
+class CountedRings final : public RingStore {
+ public:
+  CountedRings(std::vector<double> cuts, std::size_t sets, std::size_t bins);
+  void add(std::size_t set, std::uint64_t chunk, std::span<const double> squares) override;
+  void close() override;
+  double least_bandwidth() const override;
+  std::size_t memory_bytes() const override;
+  /// @cost a window of 32 to 64 bins for each of 16 to 32 nodes a bandwidth, four of them read for a place
+  RingDensities estimate(std::span<const double> places, RingKernel kernel, double bandwidth) const override;
+  RingDensities estimate_near(std::span<const double> places, RingKernel kernel,
+                              double bandwidth) const override;
+  Places places(std::size_t set, double widest) const override;
+
+ private:
+  struct Segment {
+    double low, width, per_mm2;  ///< of the segment; bins per mm^2
+    std::size_t bins, first;     ///< first bin among all
+  };
+  using ReadingOf = RingNodes::Reading (RingNodes::*)(double) const;
+  RingDensities read(std::span<const double> places, RingKernel kernel, double bandwidth,
+                     ReadingOf reading_of) const;
+  RingBins merged(const Segment& segment, double bandwidth) const;
+  /// Photons of a set in bins [first, last) of all; after close().
+  std::uint64_t photons_in(std::size_t set, std::size_t first, std::size_t last) const;
+
+  std::vector<Segment> segments_;
+  std::size_t bins_ = 0;
+  std::vector<std::atomic<std::uint64_t>> counts_;  ///< by set, then bin
+  std::vector<std::uint64_t> before_;               ///< by set, then bin: photons in the bins before it
+};
+
+}  // namespace catoptric::sim

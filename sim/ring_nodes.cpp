@@ -1,0 +1,135 @@
+#include "sim/ring_nodes.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/contract.h"
+#include "base/vector_clones.h"
+
+namespace catoptric::sim {
+namespace {
+
+/// Numbers of several sets, which a processor takes together; read from and written to rows of doubles.
+using Lanes = double __attribute__((vector_size(RingBins::lanes * sizeof(double)), aligned(8), may_alias));
+
+/// Sums over a window, for the sets of a row; then those of the squares over all sets.
+CATOPTRIC_VECTOR_CLONES
+void weigh(const double* counts, std::size_t row, std::size_t bins, const double* second,
+           const double* fourth, double* sums) {
+  double second_square = 0, fourth_square = 0;
+  for (std::size_t set = 0; set < row; set += RingBins::lanes) {
+    Lanes sum2{}, sum4{}, square2{}, square4{};
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+      const Lanes count = *reinterpret_cast<const Lanes*>(counts + bin * row + set);
+      const Lanes part2 = second[bin] * count, part4 = fourth[bin] * count;
+      sum2 += part2;
+      sum4 += part4;
+      square2 += second[bin] * part2;
+      square4 += fourth[bin] * part4;
+    }
+    *reinterpret_cast<Lanes*>(sums + set) = sum2;
+    *reinterpret_cast<Lanes*>(sums + row + set) = sum4;
+    for (std::size_t lane = 0; lane < RingBins::lanes; ++lane) {
+      second_square += square2[lane];
+      fourth_square += square4[lane];
+    }
+  }
+  sums[2 * row] = second_square;
+  sums[2 * row + 1] = fourth_square;
+}
+
+}  // namespace
+
+RingNodes::RingNodes(RingBins photons, RingKernel kernel, double bandwidth) : photons_(std::move(photons)) {
+  const double widened = std::max(bandwidth / photons_.bin_width,
+                                  std::min(fewest_bins_per_bandwidth, static_cast<double>(photons_.bins)));
+  reach_ = static_cast<std::size_t>(widened + 0.5);  // bins whose middle is within the bandwidth
+  CATOPTRIC_EXPECTS(reach_ <= most_bins_per_bandwidth && reach_ <= photons_.bins);
+  moments_before_[0] = {};
+  for (std::size_t bin = 0; bin < 2 * reach_; ++bin) {
+    u_[bin] = (static_cast<double>(bin) - static_cast<double>(reach_) + 0.5) / widened;
+    kernel_[bin] = ring_kernel(kernel, u_[bin]);
+    double term = kernel_[bin];
+    for (std::size_t j = 0; j < moments_before_[0].size(); ++j) {
+      moments_before_[bin + 1][j] = moments_before_[bin][j] + term;
+      term *= u_[bin];
+    }
+  }
+  whole_ = weights_for(0, 2 * reach_);
+  wanted_.assign(photons_.bins + 1, 0);
+}
+
+RingNodes::Weights RingNodes::weights_for(std::size_t first, std::size_t last) const {
+  // Moments by the bins themselves, so that a straight (or cubic) density is seen exactly through them.
+  RingMoments moments;
+  for (std::size_t j = 0; j < moments.size(); ++j)
+    moments[j] = moments_before_[last][j] - moments_before_[first][j];
+  const auto second = boundary_polynomial(moments, 2), fourth = boundary_polynomial(moments, 4);
+  Weights weights;
+  for (std::size_t bin = first; bin < last; ++bin) {
+    const double weight = kernel_[bin] / photons_.bin_width;
+    weights.second[bin - first] = weight * second(u_[bin]);
+    weights.fourth[bin - first] = weight * fourth(u_[bin]);
+  }
+  return weights;
+}
+
+RingNodes::Reading RingNodes::between(double place) const {
+  const double last = static_cast<double>(photons_.bins - 3);
+  const double first = std::clamp(std::floor(place) - 1, 0.0, last);
+  const double a = place - first, b = a - 1, c = a - 2, d = a - 3;
+  return {static_cast<std::size_t>(first), 4, {b * c * d / -6, a * c * d / 2, a * b * d / -2, a * b * c / 6}};
+}
+
+RingNodes::Reading RingNodes::nearest(double place) const {
+  return {static_cast<std::size_t>(std::clamp(place + 0.5, 0.0, static_cast<double>(photons_.bins))), 1, {1}};
+}
+
+void RingNodes::want(const Reading& reading) {
+  std::fill_n(wanted_.begin() + static_cast<std::ptrdiff_t>(reading.first), reading.count, 1);
+}
+
+void RingNodes::estimate() {
+  nodes_.resize(wanted_.size() * node_row());
+  constexpr std::size_t chunk = 128;
+  tbb::parallel_for(std::size_t{0}, (wanted_.size() + chunk - 1) / chunk, [&](std::size_t part) {
+    for (std::size_t node = part * chunk; node < std::min(wanted_.size(), (part + 1) * chunk); ++node)
+      if (wanted_[node]) estimate_node(node);
+  });
+}
+
+void RingNodes::estimate_node(std::size_t node) {
+  const std::size_t first = node < reach_ ? reach_ - node : 0;  // bins of the whole window
+  const std::size_t last = std::min(2 * reach_, photons_.bins - node + reach_);
+  const double* counts = photons_.counts.data() + (node + first - reach_) * photons_.row;
+  double* sums = nodes_.data() + node * node_row();
+  const auto weigh_with = [&](const Weights& weights) {
+    weigh(counts, photons_.row, last - first, weights.second.data(), weights.fourth.data(), sums);
+  };
+  if (last - first == 2 * reach_)
+    weigh_with(whole_);
+  else
+    weigh_with(weights_for(first, last));
+}
+
+void RingNodes::read(const Reading& reading, std::size_t place, RingDensities& out) const {
+  const std::size_t row = photons_.row;
+  double *second = out.second_order.data() + place * out.sets,
+         *fourth = out.fourth_order.data() + place * out.sets;
+  double squares[2] = {};
+  for (std::size_t i = 0; i < reading.count; ++i) {
+    const double weight = reading.weight[i], *sums = nodes_.data() + (reading.first + i) * node_row();
+    for (std::size_t set = 0; set < out.sets; ++set) {
+      second[set] += weight * sums[set];
+      fourth[set] += weight * sums[row + set];
+    }
+    squares[0] += weight * sums[2 * row];
+    squares[1] += weight * sums[2 * row + 1];
+  }
+  out.second_square[place] = std::max(0.0, squares[0]);
+  out.fourth_square[place] = std::max(0.0, squares[1]);
+}
+
+}  // namespace catoptric::sim
