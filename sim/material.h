@@ -31,6 +31,11 @@ constexpr double surviving_share(const Material& material) {
   return std::min(1.0, material.reflectance + material.transmittance);
 }
 
+/// Whether every photon that goes on from its first meeting with the mirror is reflected there.
+constexpr bool reflects_for_certain(const Material& mirror) {
+  return mirror.reflectance > 0 && !(mirror.transmittance > 0);
+}
+
 /// What becomes of a photon at its first meeting with the mirror. Every photon that is recorded has met it
 /// once, so the share that survives there is the same for all: their power carries it (FlightTotals), and
 /// chance is left with nothing but to reflect or transmit. A mirror that does only one of them needs no
@@ -40,7 +45,7 @@ template <typename Number>
 Interaction first_interaction(const Material& mirror, const Number& number) {
   const double share = surviving_share(mirror);
   if (!(share > 0)) return Interaction::absorbed;
-  if (!(mirror.transmittance > 0)) return Interaction::reflected;
+  if (reflects_for_certain(mirror)) return Interaction::reflected;
   if (!(mirror.reflectance > 0)) return Interaction::transmitted;
   return number() < mirror.reflectance / share ? Interaction::reflected : Interaction::transmitted;
 }

@@ -104,10 +104,13 @@ struct PlaneTracer::Block : Rows {
 };
 
 struct PlaneTracer::Photon {
+  // Not an aggregate, which would set every byte of the stream to zero for photons that ask it for nothing.
+  Photon(std::uint64_t its_number, double cosine, double sine, const PlanarRay& way)
+      : number(its_number), azimuth_cosine(cosine), azimuth_sine(sine), ray(way) {}
   std::uint64_t number;
   double azimuth_cosine, azimuth_sine;
   PlanarRay ray;
-  std::optional<RandomStream> chance = {};
+  std::optional<RandomStream> chance;
   bool touched = false;   ///< has met the mirror
   bool received = false;  ///< has crossed the invisible near field's own area from the front
   bool on_field = false;  ///< starts from the near field, whose plane it cannot meet again before turning
@@ -168,29 +171,33 @@ void PlaneTracer::trace_block(std::uint64_t first, Block& block) {
     ++counts_.ended[static_cast<std::size_t>(settle(first + i, block, i))];
 }
 
-inline void PlaneTracer::record(Photon& photon, const Arrival& arrival) {
-  if (!scene_.area.contains(arrival.plane_mm)) return;
+inline bool PlaneTracer::record(std::uint64_t number, const Arrival& arrival) {
+  if (!scene_.area.contains(arrival.plane_mm)) return false;
   crossings_.push_back(
-      {arrival.plane_mm.x(), arrival.plane_mm.y(), 2 * photon.number + (arrival.from_front ? 1 : 0)});
-  if (arrival.from_front && scene_.patch.contains(arrival.plane_mm)) photon.received = true;
+      {arrival.plane_mm.x(), arrival.plane_mm.y(), 2 * number + (arrival.from_front ? 1 : 0)});
+  return arrival.from_front && scene_.patch.contains(arrival.plane_mm);
 }
 
 Fate PlaneTracer::settle(std::uint64_t number, const Block& block, std::size_t i) {
-  Photon photon{number,
-                block.from.azimuth_cosine[i],
-                block.from.azimuth_sine[i],
-                {block.x[i], block.z[i], block.dx[i], block.dz[i]}};
-  if (scene_.scene.near_field.material()) return follow(photon);  // it may stand in any way
-  if (!(block.distance[i] < HUGE_VAL)) return Fate::missed;
-  ++counts_.met_mirror;
-  ++counts_.interactions;
+  const auto leave = [&] {
+    const Arrival arrival{0, {block.field_x[i], block.field_y[i]}, block.climbs[i] == 0};
+    return block.meets[i] != 0 && record(number, arrival) ? Fate::received : Fate::escaped;
+  };
+  const bool may_stop = scene_.scene.near_field.material().has_value();  // it may stand in any way
+  if (!may_stop) {
+    if (!(block.distance[i] < HUGE_VAL)) return Fate::missed;
+    ++counts_.met_mirror;
+    ++counts_.interactions;
+    // Most photons leave here, so nothing is made of them before.
+    if (reflects_for_certain(scene_.scene.mirror) && block.leaves[i] != 0) return leave();
+  }
+  Photon photon(number, block.from.azimuth_cosine[i], block.from.azimuth_sine[i],
+                {block.x[i], block.z[i], block.dx[i], block.dz[i]});
+  if (may_stop) return follow(photon);
   const Interaction interaction = decide_first(photon);
   if (interaction == Interaction::absorbed) return Fate::absorbed;
   const bool reflected = interaction == Interaction::reflected;
-  if (reflected && block.leaves[i] != 0) {
-    if (block.meets[i] != 0) record(photon, {0, {block.field_x[i], block.field_y[i]}, block.climbs[i] == 0});
-    return photon.received ? Fate::received : Fate::escaped;
-  }
+  if (reflected && block.leaves[i] != 0) return leave();
   photon.touched = true;
   photon.interactions = 1;
   photon.ray.x_mm = block.hit_x[i];
@@ -205,7 +212,7 @@ Fate PlaneTracer::follow(Photon& photon) {
     const auto hit = next_hit(photon);
     const auto arrival = meet_plane(photon, hit ? hit->distance_mm : HUGE_VAL);
     const bool stops = arrival && field.material() && scene_.patch.contains(arrival->plane_mm);
-    if (arrival && photon.touched) record(photon, *arrival);
+    if (arrival && photon.touched && record(photon.number, *arrival)) photon.received = true;
     if (!stops && !hit)
       return !photon.touched ? Fate::missed : photon.received ? Fate::received : Fate::escaped;
     if (photon.interactions == most_interactions_) return Fate::cut_off;

@@ -60,7 +60,8 @@ class PlaneTracer {
   Fate follow(Photon& photon);
   std::optional<PlanarHit> next_hit(const Photon& photon) const;
   std::optional<Arrival> meet_plane(const Photon& photon, double reach_mm) const;
-  void record(Photon& photon, const Arrival& arrival);
+  /// Whether the near field has received it.
+  bool record(std::uint64_t number, const Arrival& arrival);
   bool leave_mirror(Photon& photon, const PlanarHit& hit);
   double chance_of(Photon& photon) const;
   Interaction decide_first(Photon& photon) const;

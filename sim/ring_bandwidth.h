@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "sim/ring_store.h"
 
@@ -14,8 +15,17 @@ struct RingEstimate {
   double second_poisson = 0;                        ///< variance of `second` for independent photons
 };
 
-/// @in  one of the densities' places; the power of a photon of each set, W
-RingEstimate ring_estimate(const RingDensities& densities, std::size_t place, std::span<const double> powers);
+/// Reads densities as irradiance.
+class RingEstimator {
+ public:
+  /// @in  the power of a photon of each set, W
+  explicit RingEstimator(std::span<const double> powers);
+  RingEstimate operator()(const RingDensity& density) const;
+
+ private:
+  std::vector<double> own_, shared_;  ///< W/mm^2 of a density by set: as a field of its own, in the mean
+  double power_ = 0;                  ///< of a photon in the mean, as irradiance
+};
 
 /// The bandwidth in r^2 with the least estimated mean integrated squared error over [0, cover]: the variance
 /// is that of the replicates, so that Sobol points get the narrow kernels they deserve, the squared bias is

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 namespace catoptric::sim {
@@ -24,40 +25,37 @@ CountedRings::CountedRings(std::vector<double> cuts, std::size_t sets, std::size
     const double share = static_cast<double>(bins) * width / end();
     const std::size_t count =
         std::max(fewest_bins, std::bit_ceil(static_cast<std::size_t>(std::ceil(share))));
-    segments_.push_back({cuts_[i], width, static_cast<double>(count) / width, count, bins_});
+    segments_.push_back({cuts_[i], cuts_[i + 1], static_cast<double>(count) / width, count, bins_});
     bins_ += count;
   }
-  counts_ = std::vector<std::atomic<std::uint64_t>>(bins_ * sets_);
+  counts_.resize(sets_ * (bins_ + 1));
 }
 
 void CountedRings::add(std::size_t set, std::uint64_t, std::span<const double> squares) {
-  std::atomic<std::uint64_t>* const counts = counts_.data() + set * bins_;
+  std::vector<std::size_t> bins;
+  bins.reserve(squares.size());
+  const Segment* segment = segments_.data();
   for (double s : squares) {
     if (!(s <= end())) continue;
-    const Segment& segment = segments_[segment_of(s)];
-    const std::size_t bin =
-        std::min(segment.bins - 1, static_cast<std::size_t>((s - segment.low) * segment.per_mm2));
-    counts[segment.first + bin].fetch_add(1, std::memory_order_relaxed);
+    // Mostly the segment of the photon before.
+    if (!(s >= segment->low && s < segment->high)) segment = &segments_[segment_of(s)];
+    const auto bin = static_cast<std::size_t>((s - segment->low) * segment->per_mm2);
+    bins.push_back(segment->first + std::min(segment->bins - 1, bin));
   }
+  std::uint64_t* const after = counts_.data() + set * (bins_ + 1) + 1;
+  const std::lock_guard lock(mutex_);
+  for (std::size_t bin : bins) ++after[bin];
 }
 
 void CountedRings::close() {
-  before_.resize(sets_ * (bins_ + 1));
   for (std::size_t set = 0; set < sets_; ++set) {
-    const auto* counts = counts_.data() + set * bins_;
-    auto* before = before_.data() + set * (bins_ + 1);
-    std::uint64_t sum = 0;
-    for (std::size_t bin = 0; bin < bins_; ++bin) {
-      before[bin] = sum;
-      sum += counts[bin].load(std::memory_order_relaxed);
-    }
-    before[bins_] = sum;
+    const auto first = counts_.begin() + static_cast<std::ptrdiff_t>(set * (bins_ + 1));
+    std::partial_sum(first, first + static_cast<std::ptrdiff_t>(bins_ + 1), first);
   }
-  counts_ = decltype(counts_)();
 }
 
 std::uint64_t CountedRings::photons_in(std::size_t set, std::size_t first, std::size_t last) const {
-  const auto* before = before_.data() + set * (bins_ + 1);
+  const auto* before = counts_.data() + set * (bins_ + 1);
   return before[last] - before[first];
 }
 
@@ -67,7 +65,7 @@ double CountedRings::least_bandwidth() const {
   return fewest_bins_per_bandwidth * widest_bin;
 }
 
-std::size_t CountedRings::memory_bytes() const { return before_.size() * sizeof(before_[0]); }
+std::size_t CountedRings::memory_bytes() const { return counts_.size() * sizeof(counts_[0]); }
 
 RingStore::Places CountedRings::places(std::size_t set, double widest) const {
   Places places;
@@ -86,14 +84,16 @@ RingStore::Places CountedRings::places(std::size_t set, double widest) const {
 
 RingBins CountedRings::merged(const Segment& segment, double bandwidth) const {
   const double wanted =
-      std::min(bins_per_bandwidth * segment.width / bandwidth, static_cast<double>(segment.bins));
+      std::min(bins_per_bandwidth * segment.width() / bandwidth, static_cast<double>(segment.bins));
   RingBins merged;
   merged.bins = std::max(fewest_bins, std::bit_ceil(static_cast<std::size_t>(wanted)));
   merged.bins = std::min(segment.bins, merged.bins);
-  merged.bin_width = segment.width / static_cast<double>(merged.bins);
+  merged.bin_width = segment.width() / static_cast<double>(merged.bins);
   merged.row = RingBins::row_of(sets_);
-  merged.counts.resize(merged.bins * merged.row);
+  merged.counts = std::make_unique_for_overwrite<double[]>(merged.bins * merged.row);
   const std::size_t factor = segment.bins / merged.bins;
+  for (std::size_t set = sets_; set < merged.row; ++set)
+    for (std::size_t bin = 0; bin < merged.bins; ++bin) merged.counts[bin * merged.row + set] = 0;
   for (std::size_t set = 0; set < sets_; ++set)
     for (std::size_t bin = 0; bin < merged.bins; ++bin) {
       const std::size_t first = segment.first + bin * factor;
@@ -102,45 +102,41 @@ RingBins CountedRings::merged(const Segment& segment, double bandwidth) const {
   return merged;
 }
 
-RingDensities CountedRings::estimate(std::span<const double> places, RingKernel kernel,
-                                     double bandwidth) const {
-  return read(places, kernel, bandwidth, &RingNodes::between);
+void CountedRings::estimate(std::span<const double> places, RingKernel kernel, double bandwidth,
+                            const TakeDensity& take) const {
+  read(places, kernel, bandwidth, &RingNodes::between, take);
 }
 
-RingDensities CountedRings::estimate_near(std::span<const double> places, RingKernel kernel,
-                                          double bandwidth) const {
-  return read(places, kernel, bandwidth, &RingNodes::nearest);
+void CountedRings::estimate_near(std::span<const double> places, RingKernel kernel, double bandwidth,
+                                 const TakeDensity& take) const {
+  read(places, kernel, bandwidth, &RingNodes::nearest, take);
 }
 
-RingDensities CountedRings::read(std::span<const double> places, RingKernel kernel, double bandwidth,
-                                 ReadingOf reading_of) const {
+void CountedRings::read(std::span<const double> places, RingKernel kernel, double bandwidth,
+                        ReadingOf reading_of, const TakeDensity& take) const {
   std::vector<std::optional<RingNodes>> nodes(segments_.size());
-  struct Where {
-    std::size_t segment;
-    RingNodes::Reading reading;
+  const auto reading_at = [&](std::size_t i, double s) {
+    return ((*nodes[i]).*reading_of)((s - segments_[i].low) / nodes[i]->bin_width());
   };
-  std::vector<Where> where;
-  where.reserve(places.size());
   for (double s : places) {
     const std::size_t i = segment_of(s);
-    const Segment& segment = segments_[i];
     if (!nodes[i]) {
-      const double own = std::min(bandwidth, segment.width);
-      nodes[i].emplace(merged(segment, own), kernel, own);
+      const double own = std::min(bandwidth, segments_[i].width());
+      nodes[i].emplace(merged(segments_[i], own), kernel, own);
     }
-    const double place = (s - segment.low) / nodes[i]->bin_width();
-    where.push_back({i, ((*nodes[i]).*reading_of)(place)});
-    nodes[i]->want(where.back().reading);
+    nodes[i]->want(reading_at(i, s));
   }
   for (auto& each : nodes)
     if (each) each->estimate();
-  RingDensities out(places.size(), sets_);
   constexpr std::size_t chunk = 512;
   tbb::parallel_for(std::size_t{0}, (places.size() + chunk - 1) / chunk, [&](std::size_t part) {
-    for (std::size_t i = part * chunk; i < std::min(places.size(), (part + 1) * chunk); ++i)
-      nodes[where[i].segment]->read(where[i].reading, i, out);
+    RingDensity density;
+    for (std::size_t place = part * chunk; place < std::min(places.size(), (part + 1) * chunk); ++place) {
+      const std::size_t i = segment_of(places[place]);
+      nodes[i]->read(reading_at(i, places[place]), density);
+      take(place, density);
+    }
   });
-  return out;
 }
 
 }  // namespace catoptric::sim

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 #include "sim/ring_nodes.h"
@@ -19,27 +19,30 @@ class CountedRings final : public RingStore {
   double least_bandwidth() const override;
   std::size_t memory_bytes() const override;
   /// @cost a window of 32 to 64 bins for each of 16 to 32 nodes a bandwidth, four of them read for a place
-  RingDensities estimate(std::span<const double> places, RingKernel kernel, double bandwidth) const override;
-  RingDensities estimate_near(std::span<const double> places, RingKernel kernel,
-                              double bandwidth) const override;
+  void estimate(std::span<const double> places, RingKernel kernel, double bandwidth,
+                const TakeDensity& take) const override;
+  void estimate_near(std::span<const double> places, RingKernel kernel, double bandwidth,
+                     const TakeDensity& take) const override;
   Places places(std::size_t set, double widest) const override;
 
  private:
   struct Segment {
-    double low, width, per_mm2;  ///< of the segment; bins per mm^2
-    std::size_t bins, first;     ///< first bin among all
+    double low, high, per_mm2;  ///< of the segment; bins per mm^2
+    std::size_t bins, first;    ///< first bin among all
+    double width() const { return high - low; }
   };
   using ReadingOf = RingNodes::Reading (RingNodes::*)(double) const;
-  RingDensities read(std::span<const double> places, RingKernel kernel, double bandwidth,
-                     ReadingOf reading_of) const;
+  void read(std::span<const double> places, RingKernel kernel, double bandwidth, ReadingOf reading_of,
+            const TakeDensity& take) const;
   RingBins merged(const Segment& segment, double bandwidth) const;
   /// Photons of a set in bins [first, last) of all; after close().
   std::uint64_t photons_in(std::size_t set, std::size_t first, std::size_t last) const;
 
   std::vector<Segment> segments_;
   std::size_t bins_ = 0;
-  std::vector<std::atomic<std::uint64_t>> counts_;  ///< by set, then bin
-  std::vector<std::uint64_t> before_;               ///< by set, then bin: photons in the bins before it
+  std::mutex mutex_;  ///< of the counts while photons come: held for 1 of the 40 us that a chunk flies
+  /// By set, then bin: photons in the bin before, after close() in all before.
+  std::vector<std::uint64_t> counts_;
 };
 
 }  // namespace catoptric::sim

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "sim/ring_kernel.h"
@@ -17,7 +18,7 @@ struct RingBins {
 
   double bin_width = 0;  ///< in s
   std::size_t bins = 0, row = 0;
-  std::vector<double> counts;  ///< by bin, `row` numbers each
+  std::unique_ptr<double[]> counts;  ///< by bin, `row` numbers each
 };
 
 /// A cubic through a one-sided window needs four bins; with twice as many it is well conditioned.
@@ -50,7 +51,7 @@ class RingNodes {
   /// Safe to call once for all that is wanted; goes parallel.
   void estimate();
   /// Safe to call from several threads after estimate().
-  void read(const Reading& reading, std::size_t place, RingDensities& out) const;
+  void read(const Reading& reading, RingDensity& out) const;
 
   static constexpr std::size_t most_bins_per_bandwidth = 64;
 
@@ -70,7 +71,7 @@ class RingNodes {
   std::array<RingMoments, window + 1> moments_before_;  ///< of the bins before each
   Weights whole_;                                       ///< of a window that sees no end
   std::vector<char> wanted_;                            ///< by node
-  std::vector<double> nodes_;  ///< by node: second and fourth order by set, their squares
+  std::unique_ptr<double[]> nodes_;  ///< by node: second and fourth order by set, their squares
 };
 
 }  // namespace catoptric::sim

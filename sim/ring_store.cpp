@@ -43,19 +43,22 @@ std::size_t SortedRings::memory_bytes() const {
   return photons * sizeof(double);
 }
 
-RingDensities SortedRings::estimate(std::span<const double> places, RingKernel kernel,
-                                    double bandwidth) const {
-  RingDensities out(places.size(), sets_);
+void SortedRings::estimate(std::span<const double> places, RingKernel kernel, double bandwidth,
+                           const TakeDensity& take) const {
   constexpr std::size_t chunk = 64;
   tbb::parallel_for(std::size_t{0}, (places.size() + chunk - 1) / chunk, [&](std::size_t part) {
-    for (std::size_t i = part * chunk; i < std::min(places.size(), (part + 1) * chunk); ++i)
-      estimate_one(i, places[i], kernel, bandwidth, out);
+    RingDensity density;
+    for (std::size_t i = part * chunk; i < std::min(places.size(), (part + 1) * chunk); ++i) {
+      look(places[i], kernel, bandwidth, density);
+      take(i, density);
+    }
   });
-  return out;
 }
 
-void SortedRings::estimate_one(std::size_t place, double s, RingKernel kernel, double bandwidth,
-                               RingDensities& out) const {
+void SortedRings::look(double s, RingKernel kernel, double bandwidth, RingDensity& out) const {
+  out.second_order.assign(sets_, 0.0);
+  out.fourth_order.assign(sets_, 0.0);
+  out.second_square = out.fourth_square = 0;
   const std::size_t segment = segment_of(s);
   const double low = cuts_[segment], high = cuts_[segment + 1], h = std::min(bandwidth, high - low);
   const double from = std::max(low, s - h), to = std::min(high, s + h);
@@ -69,10 +72,10 @@ void SortedRings::estimate_one(std::size_t place, double s, RingKernel kernel, d
     for (; photon != all.end() && (*photon < to || to == end()) && *photon <= to; ++photon) {
       const double u = (*photon - s) * scale, weight = scale * ring_kernel(kernel, u);
       const double w2 = weight * second(u), w4 = weight * fourth(u);
-      out.second_order[place * sets_ + set] += w2;
-      out.fourth_order[place * sets_ + set] += w4;
-      out.second_square[place] += w2 * w2;
-      out.fourth_square[place] += w4 * w4;
+      out.second_order[set] += w2;
+      out.fourth_order[set] += w4;
+      out.second_square += w2 * w2;
+      out.fourth_square += w4 * w4;
     }
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -8,21 +9,15 @@
 
 namespace catoptric::sim {
 
-/// What several sets of photons (replicates) say about the density at some places, photons per mm^2 of
-/// s = r^2.
-struct RingDensities {
-  RingDensities(std::size_t places, std::size_t of_sets)
-      : sets(of_sets),
-        second_order(places * of_sets),
-        fourth_order(places * of_sets),
-        second_square(places),
-        fourth_square(places) {}
-
-  std::size_t sets;
-  std::vector<double> second_order, fourth_order;    ///< by place, then set
-  std::vector<double> second_square, fourth_square;  ///< by place: sums of squared weights over all sets
-                                                     ///< (Poisson variance)
+/// What several sets of photons (replicates) say about the density at one place, photons per mm^2 of s = r^2.
+struct RingDensity {
+  std::vector<double> second_order, fourth_order;  ///< one value a set; more are zeros
+  double second_square = 0, fourth_square = 0;  ///< sums of squared weights over all sets (Poisson variance)
 };
+
+/// Takes the density at the place of that index; called for every place once, from several threads and in any
+/// order. What is handed over lasts as long as the call.
+using TakeDensity = std::function<void(std::size_t place, const RingDensity&)>;
 
 /// Landing radii squared of several sets of photons, between 0 and an end, cut into segments at the known
 /// jumps of the density; no estimate looks across a cut.
@@ -44,13 +39,13 @@ class RingStore {
   /// @out   the same at a place whatever others are asked for, and for any number of threads
   /// @error bias of second and fourth order in the bandwidth, on cuts and near them too, where the density is
   ///        smooth between cuts; counted photons add bin^2 / 24 times its second derivative
-  virtual RingDensities estimate(std::span<const double> places, RingKernel kernel,
-                                 double bandwidth) const = 0;
+  virtual void estimate(std::span<const double> places, RingKernel kernel, double bandwidth,
+                        const TakeDensity& take) const = 0;
   /// The same at places nearby, no farther than a sixteenth of the bandwidth (or half a bin of what the
   /// storage resolves), where an estimate costs least.
-  virtual RingDensities estimate_near(std::span<const double> places, RingKernel kernel,
-                                      double bandwidth) const {
-    return estimate(places, kernel, bandwidth);
+  virtual void estimate_near(std::span<const double> places, RingKernel kernel, double bandwidth,
+                             const TakeDensity& take) const {
+    estimate(places, kernel, bandwidth, take);
   }
 
   /// The photons of one set as rings: places in s and how many photons stand there.
@@ -78,12 +73,12 @@ class SortedRings final : public RingStore {
   void close() override;
   double least_bandwidth() const override;
   std::size_t memory_bytes() const override;
-  RingDensities estimate(std::span<const double> places, RingKernel kernel, double bandwidth) const override;
+  void estimate(std::span<const double> places, RingKernel kernel, double bandwidth,
+                const TakeDensity& take) const override;
   Places places(std::size_t set, double widest) const override;
 
  private:
-  void estimate_one(std::size_t place, double s, RingKernel kernel, double bandwidth,
-                    RingDensities& out) const;
+  void look(double s, RingKernel kernel, double bandwidth, RingDensity& out) const;
   std::vector<std::vector<std::vector<double>>> parts_;  ///< by set and chunk
   std::vector<std::vector<double>> squares_;             ///< by set, rising
 };

@@ -167,16 +167,16 @@ void estimate_all(const RingStore& store, std::span<const double> powers, std::s
     part->resize(count);
   std::vector<double> places(count);
   for (std::size_t i = 0; i < count; ++i) places[i] = std::min(radii_mm[i] * radii_mm[i], store.end());
-  const RingDensities densities = store.estimate(places, options.kernel, field.bandwidth_mm2);
-  for (std::size_t i = 0; i < count; ++i) {
-    const RingEstimate at = ring_estimate(densities, i, powers);
+  const RingEstimator estimator(powers);
+  store.estimate(places, options.kernel, field.bandwidth_mm2, [&](std::size_t i, const RingDensity& density) {
+    const RingEstimate at = estimator(density);
     field.bias[i] = at.second - at.fourth;
     field.irradiance[i] = std::max(0.0, at.second);
     field.noise[i] = std::sqrt(at.second_variance);
     field.poisson_noise[i] = std::sqrt(at.second_poisson);
     field.debiased[i] = std::max(0.0, at.fourth);
     field.debiased_noise[i] = std::sqrt(at.fourth_variance);
-  }
+  });
 }
 
 }  // namespace
