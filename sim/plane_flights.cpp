@@ -6,6 +6,7 @@
 #include <array>
 
 #include "base/random_stream.h"
+#include "base/vector_clones.h"
 #include "sim/plane_tracer.h"
 
 namespace catoptric::sim {
@@ -16,6 +17,23 @@ struct PlaneFlights::Parts {
 };
 
 namespace {
+
+/// The azimuth of all photons of a chunk.
+constexpr std::array<double, photons_of_a_chunk> filled_with(double number) {
+  std::array<double, photons_of_a_chunk> all{};
+  all.fill(number);
+  return all;
+}
+
+/// Numbers in [0, 1) become places in the even intervals of that step, one each from number `first` on.
+CATOPTRIC_VECTOR_CLONES
+void stratify(double first, double step, double* __restrict numbers, std::size_t count) {
+  constexpr double below_one = 1 - 0x1p-53;  // the last interval's end may round up
+  for (std::size_t i = 0; i < count; ++i) {
+    const double place = (first + static_cast<double>(static_cast<int>(i)) + numbers[i]) * step;
+    numbers[i] = place < below_one ? place : below_one;
+  }
+}
 
 /// The one number of the emission that matters in a plane. For the sampler "sobol" photon i of n gets a
 /// random place in the i-th of n even intervals, which is what scrambling makes of the first coordinate of
@@ -30,12 +48,11 @@ class FirstNumbers {
 
   void draw(std::uint64_t first, std::span<double> numbers) {
     if (sampler_ == Sampler::random) return random_.draw(first, std::array{numbers});
-    for (double& number : numbers)
-      number = std::min((static_cast<double>(first++) + shifts_.uniform()) * step_, below_one);
+    for (double& number : numbers) number = shifts_.uniform();
+    stratify(static_cast<double>(first), step_, numbers.data(), numbers.size());
   }
 
  private:
-  static constexpr double below_one = 1 - 0x1p-53;  // the last interval's end may round up
   Sampler sampler_;
   EmissionNumbers random_;
   double step_;
@@ -64,12 +81,11 @@ FlightTotals PlaneFlights::fly(const PhotonOptions& options, bool front, const T
   tbb::parallel_for(std::uint64_t{0}, PhotonFlights::chunks(photons), [&](std::uint64_t i) {
     const std::uint64_t first = i * photons_of_a_chunk;
     const auto count = static_cast<std::size_t>(std::min(photons_of_a_chunk, photons - first));
-    std::array<double, photons_of_a_chunk> numbers, cosines, ones, zeros;
+    static constexpr auto ones = filled_with(1), zeros = filled_with(0);
+    std::array<double, photons_of_a_chunk> numbers, cosines;
     const auto row = [count](auto& array) { return std::span(array.data(), count); };
     FirstNumbers(options, key, first).draw(first, row(numbers));
     parts_->map.cosines(row(numbers), row(cosines));
-    ones.fill(1);
-    zeros.fill(0);
     PlaneTracer tracer(parts_->scene, options.most_interactions, key);
     tracer.trace(first, {row(cosines), row(ones), row(zeros)});
     counts.add(tracer.counts());

@@ -167,8 +167,21 @@ void PlaneTracer::trace_block(std::uint64_t first, Block& block) {
     mark_leaving(count, *scene_.opening, block);
   else
     std::fill_n(block.leaves, count, 0.0);
-  for (std::size_t i = 0; i < count; ++i)
-    ++counts_.ended[static_cast<std::size_t>(settle(first + i, block, i))];
+  // Most photons leave at once where the near field is not in their way and chance has no say.
+  const bool plain = !scene_.scene.near_field.material() && reflects_for_certain(scene_.scene.mirror);
+  std::size_t left = 0, received = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (plain & (block.leaves[i] != 0) & (block.distance[i] < HUGE_VAL)) {
+      ++left;
+      received += record_leaving(first + i, block, i);
+    } else {
+      ++counts_.ended[static_cast<std::size_t>(settle(first + i, block, i))];
+    }
+  }
+  counts_.met_mirror += left;
+  counts_.interactions += left;
+  counts_.ended[static_cast<std::size_t>(Fate::received)] += received;
+  counts_.ended[static_cast<std::size_t>(Fate::escaped)] += left - received;
 }
 
 inline bool PlaneTracer::record(std::uint64_t number, const Arrival& arrival) {
@@ -178,26 +191,23 @@ inline bool PlaneTracer::record(std::uint64_t number, const Arrival& arrival) {
   return arrival.from_front && scene_.patch.contains(arrival.plane_mm);
 }
 
+inline bool PlaneTracer::record_leaving(std::uint64_t number, const Block& block, std::size_t i) {
+  return block.meets[i] != 0 &&
+         record(number, {0, {block.field_x[i], block.field_y[i]}, block.climbs[i] == 0});
+}
+
 Fate PlaneTracer::settle(std::uint64_t number, const Block& block, std::size_t i) {
-  const auto leave = [&] {
-    const Arrival arrival{0, {block.field_x[i], block.field_y[i]}, block.climbs[i] == 0};
-    return block.meets[i] != 0 && record(number, arrival) ? Fate::received : Fate::escaped;
-  };
-  const bool may_stop = scene_.scene.near_field.material().has_value();  // it may stand in any way
-  if (!may_stop) {
-    if (!(block.distance[i] < HUGE_VAL)) return Fate::missed;
-    ++counts_.met_mirror;
-    ++counts_.interactions;
-    // Most photons leave here, so nothing is made of them before.
-    if (reflects_for_certain(scene_.scene.mirror) && block.leaves[i] != 0) return leave();
-  }
   Photon photon(number, block.from.azimuth_cosine[i], block.from.azimuth_sine[i],
                 {block.x[i], block.z[i], block.dx[i], block.dz[i]});
-  if (may_stop) return follow(photon);
+  if (scene_.scene.near_field.material()) return follow(photon);  // it may stand in any way
+  if (!(block.distance[i] < HUGE_VAL)) return Fate::missed;
+  ++counts_.met_mirror;
+  ++counts_.interactions;
   const Interaction interaction = decide_first(photon);
   if (interaction == Interaction::absorbed) return Fate::absorbed;
   const bool reflected = interaction == Interaction::reflected;
-  if (reflected && block.leaves[i] != 0) return leave();
+  if (reflected && block.leaves[i] != 0)
+    return record_leaving(number, block, i) ? Fate::received : Fate::escaped;
   photon.touched = true;
   photon.interactions = 1;
   photon.ray.x_mm = block.hit_x[i];

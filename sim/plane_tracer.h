@@ -56,6 +56,8 @@ class PlaneTracer {
   struct Arrival;
   struct Block;
   void trace_block(std::uint64_t first, Block& block);
+  /// Of a photon that was reflected once and leaves for good; whether the near field has received it.
+  bool record_leaving(std::uint64_t number, const Block& block, std::size_t i);
   Fate settle(std::uint64_t number, const Block& block, std::size_t i);
   Fate follow(Photon& photon);
   std::optional<PlanarHit> next_hit(const Photon& photon) const;

@@ -23,8 +23,8 @@ CountedRings::CountedRings(std::vector<double> cuts, std::size_t sets, std::size
   for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
     const double width = cuts_[i + 1] - cuts_[i];
     const double share = static_cast<double>(bins) * width / end();
-    const std::size_t count =
-        std::max(fewest_bins, std::bit_ceil(static_cast<std::size_t>(std::ceil(share))));
+    const auto count = static_cast<std::uint32_t>(
+        std::max(fewest_bins, std::bit_ceil(static_cast<std::size_t>(std::ceil(share)))));
     segments_.push_back({cuts_[i], cuts_[i + 1], static_cast<double>(count) / width, count, bins_});
     bins_ += count;
   }
@@ -32,19 +32,19 @@ CountedRings::CountedRings(std::vector<double> cuts, std::size_t sets, std::size
 }
 
 void CountedRings::add(std::size_t set, std::uint64_t, std::span<const double> squares) {
-  std::vector<std::size_t> bins;
+  std::vector<std::uint32_t> bins;
   bins.reserve(squares.size());
   const Segment* segment = segments_.data();
   for (double s : squares) {
     if (!(s <= end())) continue;
     // Mostly the segment of the photon before.
     if (!(s >= segment->low && s < segment->high)) segment = &segments_[segment_of(s)];
-    const auto bin = static_cast<std::size_t>((s - segment->low) * segment->per_mm2);
+    const auto bin = static_cast<std::uint32_t>((s - segment->low) * segment->per_mm2);
     bins.push_back(segment->first + std::min(segment->bins - 1, bin));
   }
-  std::uint64_t* const after = counts_.data() + set * (bins_ + 1) + 1;
+  std::int64_t* const after = counts_.data() + set * (bins_ + 1) + 1;
   const std::lock_guard lock(mutex_);
-  for (std::size_t bin : bins) ++after[bin];
+  for (std::uint32_t bin : bins) ++after[bin];
 }
 
 void CountedRings::close() {
@@ -54,7 +54,7 @@ void CountedRings::close() {
   }
 }
 
-std::uint64_t CountedRings::photons_in(std::size_t set, std::size_t first, std::size_t last) const {
+std::int64_t CountedRings::photons_in(std::size_t set, std::size_t first, std::size_t last) const {
   const auto* before = counts_.data() + set * (bins_ + 1);
   return before[last] - before[first];
 }
@@ -87,7 +87,7 @@ RingBins CountedRings::merged(const Segment& segment, double bandwidth) const {
       std::min(bins_per_bandwidth * segment.width() / bandwidth, static_cast<double>(segment.bins));
   RingBins merged;
   merged.bins = std::max(fewest_bins, std::bit_ceil(static_cast<std::size_t>(wanted)));
-  merged.bins = std::min(segment.bins, merged.bins);
+  merged.bins = std::min<std::size_t>(segment.bins, merged.bins);
   merged.bin_width = segment.width() / static_cast<double>(merged.bins);
   merged.row = RingBins::row_of(sets_);
   merged.counts = std::make_unique_for_overwrite<double[]>(merged.bins * merged.row);
@@ -102,21 +102,12 @@ RingBins CountedRings::merged(const Segment& segment, double bandwidth) const {
   return merged;
 }
 
-void CountedRings::estimate(std::span<const double> places, RingKernel kernel, double bandwidth,
-                            const TakeDensity& take) const {
-  read(places, kernel, bandwidth, &RingNodes::between, take);
-}
-
-void CountedRings::estimate_near(std::span<const double> places, RingKernel kernel, double bandwidth,
-                                 const TakeDensity& take) const {
-  read(places, kernel, bandwidth, &RingNodes::nearest, take);
-}
-
+template <typename ReadingOf>
 void CountedRings::read(std::span<const double> places, RingKernel kernel, double bandwidth,
-                        ReadingOf reading_of, const TakeDensity& take) const {
+                        const ReadingOf& reading_of, const TakeDensity& take) const {
   std::vector<std::optional<RingNodes>> nodes(segments_.size());
   const auto reading_at = [&](std::size_t i, double s) {
-    return ((*nodes[i]).*reading_of)((s - segments_[i].low) / nodes[i]->bin_width());
+    return reading_of(*nodes[i], (s - segments_[i].low) / nodes[i]->bin_width());
   };
   for (double s : places) {
     const std::size_t i = segment_of(s);
@@ -137,6 +128,20 @@ void CountedRings::read(std::span<const double> places, RingKernel kernel, doubl
       take(place, density);
     }
   });
+}
+
+void CountedRings::estimate(std::span<const double> places, RingKernel kernel, double bandwidth,
+                            const TakeDensity& take) const {
+  read(
+      places, kernel, bandwidth, [](const RingNodes& nodes, double place) { return nodes.between(place); },
+      take);
+}
+
+void CountedRings::estimate_near(std::span<const double> places, RingKernel kernel, double bandwidth,
+                                 const TakeDensity& take) const {
+  read(
+      places, kernel, bandwidth, [](const RingNodes& nodes, double place) { return nodes.nearest(place); },
+      take);
 }
 
 }  // namespace catoptric::sim

@@ -28,21 +28,21 @@ class CountedRings final : public RingStore {
  private:
   struct Segment {
     double low, high, per_mm2;  ///< of the segment; bins per mm^2
-    std::size_t bins, first;    ///< first bin among all
+    std::uint32_t bins, first;  ///< first bin among all
     double width() const { return high - low; }
   };
-  using ReadingOf = RingNodes::Reading (RingNodes::*)(double) const;
-  void read(std::span<const double> places, RingKernel kernel, double bandwidth, ReadingOf reading_of,
+  template <typename ReadingOf>
+  void read(std::span<const double> places, RingKernel kernel, double bandwidth, const ReadingOf& reading_of,
             const TakeDensity& take) const;
   RingBins merged(const Segment& segment, double bandwidth) const;
   /// Photons of a set in bins [first, last) of all; after close().
-  std::uint64_t photons_in(std::size_t set, std::size_t first, std::size_t last) const;
+  std::int64_t photons_in(std::size_t set, std::size_t first, std::size_t last) const;
 
   std::vector<Segment> segments_;
-  std::size_t bins_ = 0;
+  std::uint32_t bins_ = 0;
   std::mutex mutex_;  ///< of the counts while photons come: held for 1 of the 40 us that a chunk flies
   /// By set, then bin: photons in the bin before, after close() in all before.
-  std::vector<std::uint64_t> counts_;
+  std::vector<std::int64_t> counts_;
 };
 
 }  // namespace catoptric::sim

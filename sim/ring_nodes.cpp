@@ -14,26 +14,39 @@ namespace {
 /// Numbers of several sets, which a processor takes together; read from and written to rows of doubles.
 using Lanes = double __attribute__((vector_size(RingBins::lanes * sizeof(double)), aligned(8), may_alias));
 
-/// Sums over a window, for the sets of a row; then those of the squares over all sets.
+/// Sums over a part of a window.
+struct WindowSums {
+  Lanes second{}, fourth{}, second_square{}, fourth_square{};
+  [[gnu::always_inline]] void add(const Lanes& count, double weight2, double weight4) {
+    const Lanes part2 = weight2 * count, part4 = weight4 * count;
+    second += part2;
+    fourth += part4;
+    second_square += weight2 * part2;
+    fourth_square += weight4 * part4;
+  }
+};
+
+/// Sums over a window, for the sets of a row; then those of the squares over all sets. Even and odd bins are
+/// summed apart: a sum would otherwise wait for the one before.
 CATOPTRIC_VECTOR_CLONES
 void weigh(const double* counts, std::size_t row, std::size_t bins, const double* second,
            const double* fourth, double* sums) {
   double second_square = 0, fourth_square = 0;
   for (std::size_t set = 0; set < row; set += RingBins::lanes) {
-    Lanes sum2{}, sum4{}, square2{}, square4{};
-    for (std::size_t bin = 0; bin < bins; ++bin) {
-      const Lanes count = *reinterpret_cast<const Lanes*>(counts + bin * row + set);
-      const Lanes part2 = second[bin] * count, part4 = fourth[bin] * count;
-      sum2 += part2;
-      sum4 += part4;
-      square2 += second[bin] * part2;
-      square4 += fourth[bin] * part4;
+    const auto count_of = [&](std::size_t bin) __attribute__((always_inline))->const Lanes& {
+      return *reinterpret_cast<const Lanes*>(counts + bin * row + set);
+    };
+    WindowSums even, odd;
+    for (std::size_t bin = 0; bin + 1 < bins; bin += 2) {
+      even.add(count_of(bin), second[bin], fourth[bin]);
+      odd.add(count_of(bin + 1), second[bin + 1], fourth[bin + 1]);
     }
-    *reinterpret_cast<Lanes*>(sums + set) = sum2;
-    *reinterpret_cast<Lanes*>(sums + row + set) = sum4;
+    if (bins % 2 != 0) even.add(count_of(bins - 1), second[bins - 1], fourth[bins - 1]);
+    *reinterpret_cast<Lanes*>(sums + set) = even.second + odd.second;
+    *reinterpret_cast<Lanes*>(sums + row + set) = even.fourth + odd.fourth;
     for (std::size_t lane = 0; lane < RingBins::lanes; ++lane) {
-      second_square += square2[lane];
-      fourth_square += square4[lane];
+      second_square += even.second_square[lane] + odd.second_square[lane];
+      fourth_square += even.fourth_square[lane] + odd.fourth_square[lane];
     }
   }
   sums[2 * row] = second_square;
@@ -94,21 +107,6 @@ RingNodes::Weights RingNodes::weights_for(std::size_t first, std::size_t last) c
     weights.fourth[bin - first] = weight * fourth(u_[bin]);
   }
   return weights;
-}
-
-RingNodes::Reading RingNodes::between(double place) const {
-  const double last = static_cast<double>(photons_.bins - 3);
-  const double first = std::clamp(std::floor(place) - 1, 0.0, last);
-  const double a = place - first, b = a - 1, c = a - 2, d = a - 3;
-  return {static_cast<std::size_t>(first), 4, {b * c * d / -6, a * c * d / 2, a * b * d / -2, a * b * c / 6}};
-}
-
-RingNodes::Reading RingNodes::nearest(double place) const {
-  return {static_cast<std::size_t>(std::clamp(place + 0.5, 0.0, static_cast<double>(photons_.bins))), 1, {1}};
-}
-
-void RingNodes::want(const Reading& reading) {
-  std::fill_n(wanted_.begin() + static_cast<std::ptrdiff_t>(reading.first), reading.count, 1);
 }
 
 void RingNodes::estimate() {

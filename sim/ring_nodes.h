@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -40,14 +42,23 @@ class RingNodes {
     std::size_t first, count;      ///< nodes
     std::array<double, 4> weight;  ///< of each
   };
-  /// @in bins from the segment's low end
-  Reading between(double place) const;
-  Reading nearest(double place) const;
-
   double bin_width() const { return photons_.bin_width; }
 
+  /// @in bins from the segment's low end
+  Reading between(double place) const {
+    const std::size_t below = static_cast<std::uint32_t>(place);
+    const std::size_t node = std::min(below - (below > 0), photons_.bins - 3);
+    const double a = place - static_cast<double>(node), b = a - 1, c = a - 2, d = a - 3;
+    return {node, 4, {b * c * d / -6, a * c * d / 2, a * b * d / -2, a * b * c / 6}};
+  }
+  Reading nearest(double place) const {
+    return {std::min<std::size_t>(static_cast<std::uint32_t>(place + 0.5), photons_.bins), 1, {1}};
+  }
+
   /// What will be read, before estimate().
-  void want(const Reading& reading);
+  void want(const Reading& reading) {
+    std::fill_n(wanted_.begin() + static_cast<std::ptrdiff_t>(reading.first), reading.count, char{1});
+  }
   /// Safe to call once for all that is wanted; goes parallel.
   void estimate();
   /// Safe to call from several threads after estimate().
