@@ -30,7 +30,7 @@ class PlaneFlights {
 
   /// @in    front: the crossings against the field's normal, else those along it
   /// @fails InputError for more than most_photons photons, most_interactions below 1
-  /// @cost  some 0.05 us a photon where most are reflected once, 0.1 us a bounce of the others
+  /// @cost  some 0.03 us a photon where most are reflected once, 0.1 us a bounce of the others
   FlightTotals fly(const PhotonOptions& options, bool front, const TakeSquares& take) const;
 
  private:

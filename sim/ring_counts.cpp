@@ -32,19 +32,19 @@ CountedRings::CountedRings(std::vector<double> cuts, std::size_t sets, std::size
 }
 
 void CountedRings::add(std::size_t set, std::uint64_t, std::span<const double> squares) {
-  std::vector<std::uint32_t> bins;
-  bins.reserve(squares.size());
+  std::vector<std::uint32_t> bins(squares.size());
+  std::size_t count = 0;
   const Segment* segment = segments_.data();
   for (double s : squares) {
     if (!(s <= end())) continue;
     // Mostly the segment of the photon before.
     if (!(s >= segment->low && s < segment->high)) segment = &segments_[segment_of(s)];
     const auto bin = static_cast<std::uint32_t>((s - segment->low) * segment->per_mm2);
-    bins.push_back(segment->first + std::min(segment->bins - 1, bin));
+    bins[count++] = segment->first + std::min(segment->bins - 1, bin);
   }
   std::int64_t* const after = counts_.data() + set * (bins_ + 1) + 1;
   const std::lock_guard lock(mutex_);
-  for (std::uint32_t bin : bins) ++after[bin];
+  for (std::uint32_t bin : std::span(bins.data(), count)) ++after[bin];
 }
 
 void CountedRings::close() {

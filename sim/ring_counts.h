@@ -18,7 +18,8 @@ class CountedRings final : public RingStore {
   void close() override;
   double least_bandwidth() const override;
   std::size_t memory_bytes() const override;
-  /// @cost a window of 32 to 64 bins for each of 16 to 32 nodes a bandwidth, four of them read for a place
+  /// @cost  a window of 32 to 64 bins for each of 16 to 32 nodes a bandwidth, some 40 ns each, and 40 ns a
+  ///        place that reads four of them
   void estimate(std::span<const double> places, RingKernel kernel, double bandwidth,
                 const TakeDensity& take) const override;
   void estimate_near(std::span<const double> places, RingKernel kernel, double bandwidth,
@@ -40,7 +41,7 @@ class CountedRings final : public RingStore {
 
   std::vector<Segment> segments_;
   std::uint32_t bins_ = 0;
-  std::mutex mutex_;  ///< of the counts while photons come: held for 1 of the 40 us that a chunk flies
+  std::mutex mutex_;  ///< of the counts while photons come: held for 1 of the 35 us that a chunk flies
   /// By set, then bin: photons in the bin before, after close() in all before.
   std::vector<std::int64_t> counts_;
 };

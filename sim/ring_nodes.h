@@ -29,8 +29,8 @@ inline constexpr double fewest_bins_per_bandwidth = 8;
 /// Density estimates at the nodes of a segment, the edges of its even bins, and between them by cubic
 /// interpolation over four nodes. At nodes that see no end of the segment all windows are alike, so that one
 /// set of weights serves them all, and a sum over a window is the same few operations for several sets at a
-/// time; the interpolation is exact for cubics, so that straight (or cubic) densities stay exact, and leaves
-/// 3/128 (bin / bandwidth)^4 of a smooth kernel's fourth derivative.
+/// time. The interpolation is exact for cubics, so that densities that the nodes see exactly stay exact; of
+/// others it leaves at most 5/128 bin^4 times the fourth derivative.
 class RingNodes {
  public:
   /// @in a bandwidth of no more than the segment and most_bins_per_bandwidth bins, which is widened to
@@ -44,7 +44,7 @@ class RingNodes {
   };
   double bin_width() const { return photons_.bin_width; }
 
-  /// @in bins from the segment's low end
+  /// @in    place in bins from the segment's low end, up to all bins
   Reading between(double place) const {
     const std::size_t below = static_cast<std::uint32_t>(place);
     const std::size_t node = std::min(below - (below > 0), photons_.bins - 3);
@@ -59,7 +59,7 @@ class RingNodes {
   void want(const Reading& reading) {
     std::fill_n(wanted_.begin() + static_cast<std::ptrdiff_t>(reading.first), reading.count, char{1});
   }
-  /// Safe to call once for all that is wanted; goes parallel.
+  /// For all that is wanted so far, in parallel.
   void estimate();
   /// Safe to call from several threads after estimate().
   void read(const Reading& reading, RingDensity& out) const;
