@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/vector_clones.h"
-#include "cad/meridian_batch_refine.h"
 #include "cad/meridian_batch_work.h"
 #include "cad/meridian_candidate.h"
 #include "cad/meridian_isolate.h"
@@ -17,10 +16,6 @@ namespace {
 
 constexpr std::size_t groups = BatchSolver::most_rays / lane_count;
 
-/// Newton runs on two sets of lanes in turn, so that one's divisions fill the other's waiting.
-constexpr std::size_t chains = 2;
-constexpr std::size_t jobs_at_once = chains * lane_count;
-
 CATOPTRIC_VECTOR_CLONES void set_groups(const SpanTable& table, std::span<const Ray> rays, double beyond_mm,
                                         RayGroup* group) {
   for (std::size_t first = 0; first < rays.size(); first += lane_count, ++group) {
@@ -32,10 +27,11 @@ CATOPTRIC_VECTOR_CLONES void set_groups(const SpanTable& table, std::span<const 
     const auto direction = [&](int axis) FORCE_INLINE {
       return gather([&](std::size_t k) { return ray[k]->direction[axis]; });
     };
-    NearRays<Lanes>& near = group->near;
+    NearRays<Lanes> near;
     near.set(origin(0), origin(1), origin(2), direction(0), direction(1), direction(2), table);
     group->line = AxisLine<Lanes>(near, table);
     const AxisLine<Lanes>& line = group->line;
+    group->shift = near.shift;
     group->culler.set(line, near.shift, beyond_mm, table.size);
     group->factors.set(line);
     const Lanes zero = Lanes(0);
@@ -48,219 +44,163 @@ CATOPTRIC_VECTOR_CLONES void set_groups(const SpanTable& table, std::span<const 
   }
 }
 
-/// Where the rays of a group certainly cross the generatrix once, piece by piece.
-class CrossingFinder {
- public:
-  CrossingFinder(const FastTable& fast, std::size_t last, RayGroup& group, std::size_t first_ray,
-                 std::vector<CrossingJob>& jobs)
-      : fast_(fast), last_(last), group_(group), first_ray_(first_ray), jobs_(jobs) {}
-
-  CATOPTRIC_FORCE_INLINE void run() {
-    if (fast_.tree.empty()) {
-      for (std::size_t i = 0; i < fast_.top; ++i) look_at(i, group_.open);
-      return;
-    }
-    for (std::size_t n = 0; n < fast_.tree.size();) {
-      const CullNode& node = fast_.tree[n];
-      const Mask met = group_.open & ~group_.culler.misses(group_.line, node);
-      if (!any(met)) {
-        n = node.skip;
-        continue;
-      }
-      if (node.leaf)
-        for (std::size_t i = node.first; i < node.last; ++i) look_at(i, met);
-      ++n;
-    }
+/// work(degree), for the usual degrees in copies of their own, in which the loops vanish.
+template <typename Work>
+FORCE_INLINE inline void for_degree(std::size_t degree, const Work& work) {
+  switch (degree) {
+    case 2:
+      return work(2);
+    case 3:
+      return work(3);
+    default:
+      return work(degree);
   }
+}
 
- private:
-  struct Visit {
-    std::size_t piece;
-    Mask rays;
-  };
+/// Notes where a ray certainly crosses the generatrix once, and whether that is all there is to it.
+struct JobMaker {
+  JobList& jobs;
+  double slack, wanted;  ///< where along the line hits are certainly wanted
+  std::size_t count, ray;
+  std::size_t first = jobs.size();  ///< of its jobs
+  double end = HUGE_VAL;
+  bool alone = false;
 
-  /// A piece, and its halves for the rays that want them.
-  CATOPTRIC_FORCE_INLINE void look_at(std::size_t number, const Mask& rays) {
-    Visit stack[FastTable::most_levels + 1];  // one sibling waits on each level
-    std::size_t size = 1;
-    stack[0] = {number, rays};
-    while (size > 0) {
-      const Visit visit = stack[--size];
-      const FastPiece& piece = fast_.pieces[visit.piece];
-      const Mask doubtful = judge(visit.piece, piece, visit.rays);
-      if (!any(doubtful)) continue;
-      if (piece.child == 0) {
-        group_.alone |= doubtful;
-        group_.open &= ~doubtful;
-        continue;
-      }
-      stack[size++] = {piece.child + 1, doubtful};
-      stack[size++] = {piece.child, doubtful};
+  CATOPTRIC_FORCE_INLINE void crosses(const FastPiece& piece, const Crossings& crossings, std::size_t lane) {
+    if (crossings.from[lane] > end) return;
+    if (crossings.from[lane] >= wanted && crossings.until[lane] + slack < end) {
+      end = crossings.until[lane] + slack;
+      if (jobs.size() > first) jobs.drop_beyond(end, first);
     }
+    jobs.add(crossings, count, lane, piece, ray);
   }
-
-  /// Notes the rays that cross the piece once.
-  /// @out   those whose crossings the signs do not tell
-  CATOPTRIC_FORCE_INLINE Mask judge(std::size_t number, const FastPiece& piece, const Mask& rays) {
-    const CrossingFactors<Lanes>& factors = group_.factors;
-    std::array<Lanes, most_coefficients> f;
-    f[0] = factors.coefficient(piece, 0);
-    Lanes least = f[0], greatest = f[0];
-    for (std::size_t i = 1; i <= last_; ++i) {
-      f[i] = factors.coefficient(piece, i);
-      least = lesser_of(least, f[i]);
-      greatest = greater_of(greatest, f[i]);
-    }
-    Mask left = rays & group_.open & ~((least > factors.error) | (greatest < -factors.error));
-    if (!any(left)) return left;
-    left &= ~group_.culler.misses(group_.line, piece.ring);
-    if (!any(left)) return left;
-    const Lanes zero = Lanes(0);
-    Lanes smallest = absolute(f[0]);
-    Mask before = f[0] < zero, changed = before != before, again = changed;
-    for (std::size_t i = 1; i <= last_; ++i) {
-      smallest = lesser_of(smallest, absolute(f[i]));
-      const Mask below = f[i] < zero, changes = below != before;
-      again |= changed & changes;
-      changed |= changes;
-      before = below;
-    }
-    const Mask once = left & (smallest > factors.error) & changed & ~again;
-    if (any(once)) note(number, piece, f[0], once);
-    return left & ~once;
+  CATOPTRIC_FORCE_INLINE double until() const { return end; }
+  CATOPTRIC_FORCE_INLINE bool doubts(std::size_t) {
+    alone = true;
+    return false;
   }
-
-  CATOPTRIC_FORCE_INLINE void note(std::size_t number, const FastPiece& piece, const Lanes& front,
-                                   const Mask& once) {
-    const CrossingResidual<Lanes> residual{group_.line};
-    const Lanes f0 = residual.value(Lanes(piece.r0), Lanes(piece.z0));
-    const Lanes f1 = residual.value(Lanes(piece.r1), Lanes(piece.z1));
-    const Lanes start = piece.lo + (piece.hi - piece.lo) * (f0 / (f0 - f1));
-    for (std::size_t k = 0; k < lane_count; ++k)
-      if (once[k]) jobs_.push_back({start[k], front[k] < 0 ? -1.0 : 1.0, number, first_ray_ + k});
-  }
-
-  const FastTable& fast_;
-  std::size_t last_;
-  RayGroup& group_;
-  std::size_t first_ray_;
-  std::vector<CrossingJob>& jobs_;
 };
 
 CATOPTRIC_VECTOR_CLONES void find_crossings(const FastTable& fast, std::size_t degree, RayGroup* group,
-                                            std::size_t rays, std::vector<CrossingJob>& jobs) {
-  for (std::size_t first = 0; first < rays; first += lane_count, ++group)
-    CrossingFinder(fast, 2 * degree, *group, first, jobs).run();
+                                            std::size_t rays, JobList& jobs) {
+  for_degree(degree, [&](std::size_t known) FORCE_INLINE {
+    for (std::size_t ray = 0; ray < rays; ++ray) {
+      RayGroup& own = group[ray / lane_count];
+      const std::size_t lane = ray % lane_count;
+      if (!own.open[lane]) continue;
+      const auto of_lane = [lane](const auto& of) FORCE_INLINE { return of[lane]; };
+      BlockQuery<lane_count> query;
+      query.set(own.line, own.culler, own.factors, of_lane, of_lane);
+      const double slack = own.culler.slack[lane];
+      JobMaker maker{jobs, slack, own.culler.from[lane] + 2 * slack, 2 * known + 1, ray};
+      visit_blocks<lane_count>(fast, query, known, maker);
+      if (maker.alone) own.alone.set(lane, true);
+    }
+  });
 }
 
-/// Four jobs made ready for Newton.
-class JobLoader {
+/// Jobs on their way through Newton's method.
+class CrossingSolver {
  public:
-  JobLoader(const SpanTable& table, const FastTable& fast, const RayGroup* group, const CrossingJob* jobs)
+  CATOPTRIC_FORCE_INLINE CrossingSolver(const SpanTable& table, const FastTable& fast, RayGroup* group,
+                                        const CrossingJobs& jobs)
       : table_(table), fast_(fast), group_(group), jobs_(jobs) {}
 
-  CATOPTRIC_FORCE_INLINE void load(NewtonLanes& newton) const {
-    const FastPiece* piece[lane_count];
-    const SpanForm* span[lane_count];
-    for (std::size_t k = 0; k < lane_count; ++k) {
-      piece[k] = &fast_.pieces[jobs_[k].piece];
-      span[k] = &table_.spans[static_cast<std::size_t>(piece[k]->span)];
-      newton.halves.lower.set(k, piece[k]->hi <= 0.5);
-    }
-    newton.lo = gather([&](std::size_t k) FORCE_INLINE { return piece[k]->lo; });
-    newton.hi = gather([&](std::size_t k) FORCE_INLINE { return piece[k]->hi; });
-    newton.s = gather([&](std::size_t k) FORCE_INLINE { return jobs_[k].start; });
-    newton.sign_lo = gather([&](std::size_t k) FORCE_INLINE { return jobs_[k].sign_lo; });
-    const std::size_t degree = static_cast<std::size_t>(table_.degree);
-    for (std::size_t i = 0; i <= degree; ++i) {
-      std::size_t at[lane_count];
-      for (std::size_t k = 0; k < lane_count; ++k) at[k] = newton.halves.lower[k] ? i : degree - i;
-      newton.halves.rw[i] = gather([&](std::size_t k) FORCE_INLINE { return span[k]->rw[at[k]]; });
-      newton.halves.zw[i] = gather([&](std::size_t k) FORCE_INLINE { return span[k]->zw[at[k]]; });
-      newton.halves.w[i] = gather([&](std::size_t k) FORCE_INLINE { return span[k]->w[at[k]]; });
-    }
-    load_line(newton.line);
-    newton.begin(degree);
+  CATOPTRIC_FORCE_INLINE void run(std::size_t degree) {
+    load_line();
+    std::array<LanePair, most_coefficients> f;
+    for (std::size_t i = 0; i <= 2 * degree; ++i) f[i] = pair_of(jobs_.f[i]);
+    const LanePair lo = gather_pair([&](std::size_t k) FORCE_INLINE { return jobs_.piece[k]->lo; });
+    const LanePair hi = gather_pair([&](std::size_t k) FORCE_INLINE { return jobs_.piece[k]->hi; });
+    newton_.set_line(line_);
+    newton_.begin(f, lo, hi, degree);
+    HalfSpan<LanePair> half;
+    load_half(half, degree);
+    for (int i = 0; i < newton_.most_steps && any(newton_.active); ++i) newton_.step(half, degree);
+    newton_.finish(half, degree);
   }
 
-  /// About t, see nearest_along.
-  CATOPTRIC_FORCE_INLINE Lanes nearest(const NewtonLanes& newton) const {
-    const CurvePoint<Lanes>& p = newton.point;
-    const DistanceAlong<Lanes> distance{newton.line, p.r, p.z};
-    const Lanes t = choose(distance.by_height_is_better(), distance.by_height(), distance.by_radius());
-    NearRays<Lanes> near;
-    near.ox = newton.line.ox;
-    near.oy = newton.line.oy;
-    near.oz = newton.line.oz;
-    near.dx = newton.line.dx;
-    near.dy = newton.line.dy;
-    near.dz = newton.line.dz;
-    return nearest_along(near, t, p.r, p.z);
+  CATOPTRIC_FORCE_INLINE void keep(std::size_t count, double beyond_mm, NearestHits& nearest) const {
+    PairArray t, s, r, z;
+    store(along(), t);
+    store(newton_.s, s);
+    store(newton_.r, r);
+    store(newton_.z, z);
+    const bool failures = any(newton_.failed);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t ray = jobs_.ray[k];
+      RayGroup& own = group_[ray / lane_count];
+      if (failures && newton_.failed[k]) own.alone.set(ray % lane_count, true);
+      if (!(own.shift[ray % lane_count] + t[k] > beyond_mm && t[k] < nearest.t[ray])) continue;
+      nearest.t[ray] = t[k];
+      nearest.s[ray] = s[k];
+      nearest.r[ray] = r[k];
+      nearest.z[ray] = z[k];
+      nearest.span[ray] = &table_.spans[static_cast<std::size_t>(jobs_.piece[k]->span)];
+    }
   }
 
  private:
-  CATOPTRIC_FORCE_INLINE void load_line(AxisLine<Lanes>& line) const {
-    const AxisLine<Lanes>* from[lane_count];
-    std::size_t lane[lane_count];
-    for (std::size_t k = 0; k < lane_count; ++k) {
-      from[k] = &group_[jobs_[k].ray / lane_count].line;
-      lane[k] = jobs_[k].ray % lane_count;
+  /// As distance_along and make_candidate.
+  CATOPTRIC_FORCE_INLINE LanePair along() const {
+    const DistanceAlong<LanePair> distance{line_, newton_.r, newton_.z};
+    const MaskPair by_height = distance.by_height_is_better();
+    LanePair t = distance.by_height();
+    if (any(~by_height)) t = choose(by_height, t, distance.by_radius());
+    return nearest_along(line_, t, newton_.r, newton_.z);
+  }
+
+  CATOPTRIC_FORCE_INLINE void load_half(HalfSpan<LanePair>& to, std::size_t degree) const {
+    const HalfSpan<double>* half[jobs_at_once];
+    for (std::size_t k = 0; k < jobs_at_once; ++k) half[k] = &fast_.halves[jobs_.piece[k]->half];
+    for (std::size_t i = 0; i <= degree; ++i) {
+      to.rw[i] = gather_pair([&](std::size_t k) FORCE_INLINE { return half[k]->rw[i]; });
+      to.zw[i] = gather_pair([&](std::size_t k) FORCE_INLINE { return half[k]->zw[i]; });
+      to.w[i] = gather_pair([&](std::size_t k) FORCE_INLINE { return half[k]->w[i]; });
     }
-    const auto take = [&](Lanes AxisLine<Lanes>::*member) FORCE_INLINE {
-      line.*member = gather([&](std::size_t k) FORCE_INLINE { return (from[k]->*member)[lane[k]]; });
+  }
+
+  CATOPTRIC_FORCE_INLINE void load_line() {
+    const double* from[jobs_at_once];  // members of AxisLine<Lanes> from a lane on
+    for (std::size_t k = 0; k < jobs_at_once; ++k)
+      from[k] = reinterpret_cast<const double*>(&group_[jobs_.ray[k] / lane_count].line) +
+                jobs_.ray[k] % lane_count;
+    const auto take = [&](LanePair AxisLine<LanePair>::*member, std::size_t number) FORCE_INLINE {
+      line_.*member = gather_pair([&](std::size_t k) FORCE_INLINE { return from[k][number * lane_count]; });
     };
-    take(&AxisLine<Lanes>::ox);
-    take(&AxisLine<Lanes>::oy);
-    take(&AxisLine<Lanes>::oz);
-    take(&AxisLine<Lanes>::dx);
-    take(&AxisLine<Lanes>::dy);
-    take(&AxisLine<Lanes>::dz);
-    take(&AxisLine<Lanes>::h);
-    take(&AxisLine<Lanes>::along);
-    take(&AxisLine<Lanes>::across);
-    take(&AxisLine<Lanes>::level);
-    take(&AxisLine<Lanes>::skew);
-    take(&AxisLine<Lanes>::scale);
+    take(&AxisLine<LanePair>::ox, 0);
+    take(&AxisLine<LanePair>::oy, 1);
+    take(&AxisLine<LanePair>::oz, 2);
+    take(&AxisLine<LanePair>::dx, 3);
+    take(&AxisLine<LanePair>::dy, 4);
+    take(&AxisLine<LanePair>::dz, 5);
+    take(&AxisLine<LanePair>::h, 6);
+    take(&AxisLine<LanePair>::along, 7);
+    take(&AxisLine<LanePair>::across, 8);
+    take(&AxisLine<LanePair>::level, 9);
+    take(&AxisLine<LanePair>::skew, 10);
+    take(&AxisLine<LanePair>::scale, 11);
   }
 
   const SpanTable& table_;
   const FastTable& fast_;
-  const RayGroup* group_;
-  const CrossingJob* jobs_;
+  RayGroup* group_;
+  const CrossingJobs& jobs_;
+  AxisLine<LanePair> line_;
+  CrossingNewton<LanePair> newton_;
 };
 
-/// @in    jobs filled up to a multiple of `jobs_at_once`, of which the first `count` matter
-CATOPTRIC_VECTOR_CLONES void refine_crossings(const SpanTable& table, const FastTable& fast, RayGroup* group,
-                                              double beyond_mm, std::span<const CrossingJob> jobs,
-                                              std::size_t count, NearestHits& nearest) {
-  constexpr int most_steps = 16;  // four are usual
-  const std::size_t degree = static_cast<std::size_t>(table.degree);
-  NewtonLanes newton[chains];
-  for (std::size_t first = 0; first < count; first += jobs_at_once) {
-    for (std::size_t c = 0; c < chains; ++c)
-      JobLoader(table, fast, group, &jobs[first + c * lane_count]).load(newton[c]);
-    for (int step = 0; step < most_steps; ++step) {
-      bool more = false;
-      for (std::size_t c = 0; c < chains; ++c) more |= newton[c].step(degree);
-      if (!more) break;
+/// @in    jobs filled up, of which the first `count` matter
+CATOPTRIC_VECTOR_CLONES void solve_crossings(const SpanTable& table, const FastTable& fast, RayGroup* group,
+                                             double beyond_mm, const CrossingJobs* jobs, std::size_t count,
+                                             NearestHits& nearest) {
+  for_degree(static_cast<std::size_t>(table.degree), [&](std::size_t degree) FORCE_INLINE {
+    for (std::size_t first = 0; first < count; first += jobs_at_once) {
+      CrossingSolver solver(table, fast, group, jobs[first / jobs_at_once]);
+      solver.run(degree);
+      solver.keep(std::min(count - first, jobs_at_once), beyond_mm, nearest);
     }
-    for (std::size_t c = 0; c < chains; ++c) {
-      const std::size_t from = first + c * lane_count;
-      const Lanes t = JobLoader(table, fast, group, &jobs[from]).nearest(newton[c]);
-      const Mask failed = newton[c].failed | newton[c].active;
-      for (std::size_t k = 0; k < lane_count && from + k < count; ++k) {
-        const std::size_t ray = jobs[from + k].ray;
-        RayGroup& own = group[ray / lane_count];
-        if (failed[k]) own.alone.set(ray % lane_count, true);
-        if (!(own.near.shift[ray % lane_count] + t[k] > beyond_mm && t[k] < nearest.t[ray])) continue;
-        nearest.t[ray] = t[k];
-        nearest.s[ray] = newton[c].s[k];
-        nearest.r[ray] = newton[c].point.r[k];
-        nearest.z[ray] = newton[c].point.z[k];
-        nearest.span[ray] = &table.spans[static_cast<std::size_t>(fast.pieces[jobs[from + k].piece].span)];
-      }
-    }
-  }
+  });
 }
 
 /// make_hit for the rays of one group.
@@ -275,25 +215,25 @@ class HitDresser {
     };
     const Lanes t = of(nearest_.t), s = of(nearest_.s), r = of(nearest_.r), z = of(nearest_.z);
     const Lanes zero = Lanes(0);
-    const NearRays<Lanes>& near = group_.near;
+    const AxisLine<Lanes>& near = group_.line;
     const Lanes x = near.ox + t * near.dx, y = near.oy + t * near.dy;
-    const Lanes distance = square_root(x * x + y * y);
-    const Lanes ex = x / distance, ey = y / distance;
+    const Lanes distance = square_root(x * x + y * y), inverse = 1.0 / distance;
+    const Lanes ex = x * inverse, ey = y * inverse;
     Lanes along_r, along_z;
     set_tangent(s, along_r, along_z);
     const Mask met = t < Lanes(HUGE_VAL);
     group_.alone |=
         met & (~((r > zero) & (distance > zero)) | (along_r * along_r + along_z * along_z == zero));
     Lanes nx = along_z * ex, ny = along_z * ey, nz = -along_r;
-    const Lanes length = square_root(nx * nx + ny * ny + nz * nz);
-    nx = nx / length;
-    ny = ny / length;
-    nz = nz / length;
+    const Lanes unit = 1.0 / square_root(nx * nx + ny * ny + nz * nz);
+    nx = nx * unit;
+    ny = ny * unit;
+    nz = nz * unit;
     const Mask turn = nx * near.dx + ny * near.dy + nz * near.dz > zero;
     nx = choose(turn, -nx, nx);
     ny = choose(turn, -ny, ny);
     nz = choose(turn, -nz, nz);
-    const Lanes along = near.shift + t, px = r * ex, py = r * ey, pz = z + table_.centre_z;
+    const Lanes along = group_.shift + t, px = r * ex, py = r * ey, pz = z + table_.centre_z;
     for (std::size_t k = 0; k < lane_count && k < hits.size(); ++k) {
       hits[k].reset();
       if (!met[k]) continue;
@@ -317,9 +257,13 @@ class HitDresser {
       span[k] = nearest_.span[first_ray_ + k];
       most = std::max(most, span[k]->tangent_degree);
     }
+    const bool alike = table_.spans.size() == 1;
     along_r = along_z = Lanes(0);
     for (int i = most; i >= 0; --i) {
       const auto coefficient = [&](const std::array<double, most_tangent> SpanForm::*of) FORCE_INLINE {
+        if (alike)
+          return choose(lower, Lanes((span[0]->*of)[static_cast<std::size_t>(i)]),
+                        Lanes((span[0]->*of)[static_cast<std::size_t>(most - i)]));
         return gather([&](std::size_t k) FORCE_INLINE {
           const int degree = span[k]->tangent_degree;
           return i <= degree ? (span[k]->*of)[static_cast<std::size_t>(lower[k] ? i : degree - i)] : 0.0;
@@ -346,7 +290,7 @@ CATOPTRIC_VECTOR_CLONES void dress_hits(const SpanTable& table, RayGroup* group,
 
 struct BatchSolver::Work {
   std::vector<RayGroup> group = std::vector<RayGroup>(groups);
-  std::vector<CrossingJob> jobs;
+  JobList jobs;
   NearestHits nearest;
   std::array<bool, most_rays> alone;
 };
@@ -365,16 +309,15 @@ const std::array<bool, BatchSolver::most_rays>& BatchSolver::solve(std::span<con
                                                                    double beyond_mm,
                                                                    std::span<std::optional<Hit>> hits) {
   RayGroup* const group = work_->group.data();
-  std::vector<CrossingJob>& jobs = work_->jobs;
+  JobList& jobs = work_->jobs;
   NearestHits& nearest = work_->nearest;
   jobs.clear();
   std::fill(nearest.t.begin(), nearest.t.end(), HUGE_VAL);
   std::fill(nearest.span.begin(), nearest.span.end(), table_.spans.data());
   set_groups(table_, rays, beyond_mm, group);
   find_crossings(fast_, static_cast<std::size_t>(table_.degree), group, rays.size(), jobs);
-  const std::size_t count = jobs.size();
-  if (count > 0) jobs.resize((count + jobs_at_once - 1) / jobs_at_once * jobs_at_once, jobs.back());
-  refine_crossings(table_, fast_, group, beyond_mm, jobs, count, nearest);
+  jobs.fill_up();
+  solve_crossings(table_, fast_, group, beyond_mm, jobs.data(), jobs.size(), nearest);
   dress_hits(table_, group, nearest, hits);
   for (std::size_t i = 0; i < rays.size(); ++i) work_->alone[i] = group[i / lane_count].alone[i % lane_count];
   return work_->alone;

@@ -15,8 +15,8 @@ struct FastTable;
 
 /// Nearest hits of rays side by side. It does what FastProbe::first_hit does with a ray that gives it no
 /// trouble, operation by operation, so the hit is the same to the last bit: a ray is answered here only if
-/// each piece of the generatrix is certainly missed or certainly crossed once, and Newton's method goes
-/// through without leaving its bracket. All other rays are left to FastProbe.
+/// each piece of the generatrix is certainly missed or certainly crossed once, and Newton's method settles
+/// without leaving the piece. All other rays are left to FastProbe.
 class BatchSolver {
  public:
   static constexpr std::size_t most_rays =

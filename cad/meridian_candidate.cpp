@@ -11,7 +11,7 @@ namespace {
 Vector2 azimuth(const NearRay& near, double t, double r) {
   const Vector2 at(near.ox + t * near.dx, near.oy + t * near.dy);
   const double distance = std::sqrt(at.x() * at.x() + at.y() * at.y());
-  if (r > 0 && distance > 0) return at / distance;
+  if (r > 0 && distance > 0) return at * (1 / distance);
   const double h = std::hypot(near.dx, near.dy);
   return h > 0 ? Vector2(near.dx / h, near.dy / h) : Vector2(1, 0);
 }
@@ -39,7 +39,7 @@ Hit make_hit(const SpanTable& table, const NearRay& near, const Candidate& candi
   constexpr double beside = 0x1p-26;
   if (along.squaredNorm() == 0) along = tangent(span, candidate.s + (candidate.s < 0.5 ? beside : -beside));
   Vector3 normal(along.y() * e.x(), along.y() * e.y(), -along.x());
-  normal /= std::sqrt(normal.x() * normal.x() + normal.y() * normal.y() + normal.z() * normal.z());
+  normal *= 1 / std::sqrt(normal.x() * normal.x() + normal.y() * normal.y() + normal.z() * normal.z());
   if (normal.x() * near.dx + normal.y() * near.dy + normal.z() * near.dz > 0) normal = -normal;
   return {near.shift + candidate.t,
           Vector3(candidate.r * e.x(), candidate.r * e.y(), candidate.z + table.centre_z), normal,

@@ -15,10 +15,10 @@ struct Candidate {
   int span;
 };
 
-/// About t, where the line is nearest to the surface point at (r, z) that lies in the azimuth of t.
-template <typename Real>
-CATOPTRIC_FORCE_INLINE Real nearest_along(const NearRays<Real>& near, const Real& t, const Real& r,
-                                          const Real& z) {
+/// About t, where the line (a NearRays or an AxisLine) is nearest to the surface point at (r, z) that lies in
+/// the azimuth of t.
+template <typename Line, typename Real>
+CATOPTRIC_FORCE_INLINE Real nearest_along(const Line& near, const Real& t, const Real& r, const Real& z) {
   const Real x = near.ox + t * near.dx, y = near.oy + t * near.dy;
   const Real distance = square_root(x * x + y * y), zero = Real(0);
   const Real share = choose(distance > zero, r / distance, zero);
@@ -27,7 +27,7 @@ CATOPTRIC_FORCE_INLINE Real nearest_along(const NearRays<Real>& near, const Real
 
 /// A hit at about t.
 inline Candidate make_candidate(const NearRay& near, double t, double s, double r, double z, int span) {
-  return {nearest_along<double>(near, t, r, z), s, r, z, span};
+  return {nearest_along(near, t, r, z), s, r, z, span};
 }
 
 /// Point, normal and distance of a hit.

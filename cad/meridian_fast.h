@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "cad/meridian_batch.h"
+#include "cad/meridian_blocks.h"
 #include "cad/meridian_candidate.h"
+#include "cad/meridian_crossing.h"
 #include "cad/meridian_isolate.h"
 #include "cad/meridian_pieces.h"
 #include "cad/meridian_reflector.h"
@@ -18,6 +20,7 @@ class FastProbe final : public MeridianProbe {
   FastProbe(const SpanTable& table, const FastTable& fast) : table_(table), fast_(fast), batch_(table, fast) {
     const std::size_t most_hits = 2 * Degree * table.spans.size();
     candidates_.reserve(most_hits);
+    waiting_.reserve(most_hits);
     brackets_.reserve(2 * Degree);
   }
 
@@ -67,7 +70,37 @@ class FastProbe final : public MeridianProbe {
     const AxisLine<double>& line;
     const NearRay& near;
     Culler<double> culler;
-    CrossingFactors<double> factors;
+    BlockQuery<2> query;
+  };
+
+  /// A piece crossed once, from `from` on along the line.
+  struct Waiting {
+    std::array<double, 2 * Degree + 1> f;
+    double from;
+    const FastPiece* piece;
+  };
+
+  /// What visit_blocks tells.
+  struct Sink {
+    FastProbe& probe;
+    Pass& pass;
+
+    CATOPTRIC_FORCE_INLINE void crosses(const FastPiece& piece, const Crossings& crossings,
+                                        std::size_t lane) {
+      auto& waiting = probe.waiting_;
+      const double from = crossings.from[lane];
+      if (probe.wanted_ == Wanted::first) {
+        if (from > pass.culler.until) return;
+        pass.culler.found(from, crossings.until[lane]);
+        while (!waiting.empty() && waiting.back().from > pass.culler.until) waiting.pop_back();
+      }
+      Waiting& added = waiting.emplace_back();
+      for (std::size_t i = 0; i <= 2 * Degree; ++i) added.f[i] = crossings.f[i][lane];
+      added.from = from;
+      added.piece = &piece;
+    }
+    double until() const { return pass.culler.until; }
+    bool doubts(std::size_t piece) { return probe.halve_and_solve(pass, probe.fast_.halvable[piece]); }
   };
 
   /// The hits of the line, unordered, into candidates_; surely those that are wanted.
@@ -83,8 +116,11 @@ class FastProbe final : public MeridianProbe {
     }
     wanted_ = wanted;
     Pass pass{line, near, {}, {}};
+    CrossingFactors<double> factors;
+    factors.set(line);
     pass.culler.set(line, near.shift, beyond_mm, table_.size);
-    pass.factors.set(line);
+    const auto itself = [](auto of) { return of; };
+    pass.query.set(line, pass.culler, factors, itself, itself);
     const bool horizontal = std::abs(line.dz) <= horizontal_slope * line.h;
     if (horizontal ? find_level(line, near) : find_crossings(pass)) return;
     ++counts_.exact;
@@ -93,14 +129,16 @@ class FastProbe final : public MeridianProbe {
 
   bool find_crossings(Pass& pass);
   bool find_level(const AxisLine<double>& line, const NearRay& near);
-  bool look_at(Pass& pass, std::size_t number);
   bool halve_and_solve(Pass& pass, const Piece<double>& piece);
+  bool solve_swiftly(Pass& pass, const FastPiece& piece, std::array<double, 2 * Degree + 1>& f);
+  void add(Pass& pass, int span, double s, double r, double z);
   void solve(Pass& pass, int span, double lo, double hi, int sign_lo, double start);
 
   const SpanTable& table_;
   const FastTable& fast_;
   BatchSolver batch_;
   std::vector<Candidate> candidates_;
+  std::vector<Waiting> waiting_;
   std::vector<Bracket<double>> brackets_;
   Wanted wanted_ = Wanted::all;
 };
@@ -108,50 +146,39 @@ class FastProbe final : public MeridianProbe {
 /// @out   false when a piece is left that double cannot decide
 template <int Degree>
 bool FastProbe<Degree>::find_crossings(Pass& pass) {
-  if (fast_.tree.empty()) {
-    for (std::size_t i = 0; i < fast_.top; ++i)
-      if (!look_at(pass, i)) return false;
-    return true;
-  }
-  for (std::size_t n = 0; n < fast_.tree.size();) {
-    const CullNode& node = fast_.tree[n];
-    if (pass.culler.misses(pass.line, node)) {
-      n = node.skip;
-      continue;
-    }
-    if (node.leaf)
-      for (std::size_t i = node.first; i < node.last; ++i)
-        if (!look_at(pass, i)) return false;
-    ++n;
+  waiting_.clear();
+  Sink sink{*this, pass};
+  if (!visit_blocks<2>(fast_, pass.query, Degree, sink)) return false;
+  for (Waiting& crossing : waiting_) {
+    if (crossing.from > pass.culler.until) continue;
+    const FastPiece& piece = *crossing.piece;
+    const int sign_lo = crossing.f[0] < 0 ? -1 : 1;
+    if (!solve_swiftly(pass, piece, crossing.f))
+      solve(pass, piece.span, piece.lo, piece.hi, sign_lo, 0.5 * (piece.lo + piece.hi));
   }
   return true;
 }
 
 template <int Degree>
-bool FastProbe<Degree>::look_at(Pass& pass, std::size_t number) {
-  const FastPiece& piece = fast_.pieces[number];
-  constexpr std::size_t size = 2 * Degree + 1;
-  std::array<double, size> f;
-  for (std::size_t i = 0; i < size; ++i) f[i] = pass.factors.coefficient(piece, i);
-  const double error = pass.factors.error;
-  double least = f[0], greatest = f[0], smallest = std::abs(f[0]);
-  int variations = 0;
-  for (std::size_t i = 1; i < size; ++i) {
-    least = std::min(least, f[i]);
-    greatest = std::max(greatest, f[i]);
-    smallest = std::min(smallest, std::abs(f[i]));
-    variations += (f[i] < 0) != (f[i - 1] < 0);
-  }
-  if (least > error || greatest < -error || pass.culler.misses(pass.line, piece.ring)) return true;
-  if (!(smallest > error && variations == 1)) {
-    if (piece.child == 0) return halve_and_solve(pass, fast_.halvable[number]);
-    return look_at(pass, piece.child) && look_at(pass, piece.child + 1);
-  }
-  const CrossingResidual<double> residual{pass.line};
-  const double f0 = residual.value(piece.r0, piece.z0), f1 = residual.value(piece.r1, piece.z1);
-  const double start = piece.lo + (piece.hi - piece.lo) * (f0 / (f0 - f1));
-  solve(pass, piece.span, piece.lo, piece.hi, f[0] < 0 ? -1 : 1, start);
+bool FastProbe<Degree>::solve_swiftly(Pass& pass, const FastPiece& piece,
+                                      std::array<double, 2 * Degree + 1>& f) {
+  CrossingNewton<double> newton;
+  newton.set_line(pass.line);
+  newton.begin(f, piece.lo, piece.hi, Degree);
+  const HalfSpan<double>& half = fast_.halves[piece.half];
+  for (int i = 0; i < newton.most_steps && newton.active; ++i) newton.step(half, Degree);
+  newton.finish(half, Degree);
+  if (newton.failed) return false;
+  add(pass, piece.span, newton.s, newton.r, newton.z);
   return true;
+}
+
+template <int Degree>
+void FastProbe<Degree>::add(Pass& pass, int span, double s, double r, double z) {
+  const double t = distance_along(pass.line, r, z);
+  candidates_.push_back(make_candidate(pass.near, t, s, r, z, span));
+  if (wanted_ != Wanted::first) return;
+  pass.culler.found(t);
 }
 
 template <int Degree>
@@ -159,9 +186,7 @@ void FastProbe<Degree>::solve(Pass& pass, int span, double lo, double hi, int si
   const SpanForm& form = table_.spans[static_cast<std::size_t>(span)];
   const auto at = [&form](double s) { return evaluate<Degree>(form, s); };
   const auto root = refine<double>(CrossingResidual<double>{pass.line}, at, lo, hi, sign_lo, start);
-  const double t = distance_along(pass.line, root.point.r, root.point.z);
-  candidates_.push_back(make_candidate(pass.near, t, root.s, root.point.r, root.point.z, span));
-  if (wanted_ == Wanted::first) pass.culler.found(t);
+  add(pass, span, root.s, root.point.r, root.point.z);
 }
 
 template <int Degree>

@@ -92,7 +92,8 @@ struct AxisLine {
     // rounding.
     const auto axial = h_squared < Real(1e-280);
     h = choose(axial, zero, square_root(h_squared));
-    const Real ex = choose(axial, one, dx / h), ey = choose(axial, zero, dy / h);
+    const Real inverse = one / h;
+    const Real ex = choose(axial, one, dx * inverse), ey = choose(axial, zero, dy * inverse);
     along = ox * ex + oy * ey;
     across = absolute(ox * ey - oy * ex);
     level = dz * along - h * oz;

@@ -63,6 +63,7 @@ CATOPTRIC_FORCE_INLINE Real choose(bool where, const Real& a, const Real& b) {
   return where ? a : b;
 }
 inline bool any(bool where) { return where; }
+inline bool opposite(bool where) { return !where; }
 
 template <typename Real>
 CATOPTRIC_FORCE_INLINE Real greater_of(const Real& a, const Real& b) {

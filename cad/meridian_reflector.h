@@ -15,7 +15,7 @@ struct MeridianCounts {
 };
 
 /// Whether this processor answers the rays of a batch several at a time. The plain copy of that code has the
-/// same results, but compares number by number: 0.1 to 0.6 of the rate of single rays, which it leaves the
+/// same results, but compares number by number: 0.4 to 0.6 of the rate of single rays, which it leaves the
 /// batch to. Sanitizers are shown it nevertheless.
 bool meridian_works_side_by_side();
 

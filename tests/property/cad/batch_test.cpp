@@ -119,6 +119,27 @@ TEST_CASE("a ray has the same hit in any batch as alone, bit for bit", "[meridia
   }
 }
 
+TEST_CASE("the first hit is the nearest of all hits: what is passed over lies beyond it", "[meridian]") {
+  for (const Profile& profile : profiles()) {
+    const auto reflector = cad::make_meridian_reflector(profile);
+    const auto probe = reflector->probe();
+    const double size = profile.diagonal_mm();
+    const std::vector<Ray> rays = shuffled(easy_rays(profile, 6000), hard_rays(profile), 2);
+    std::size_t several = 0, wrong = 0;
+    for (const double beyond : {0.0, 0.4 * size})
+      for (const Ray& ray : rays) {
+        const std::optional<Hit> first = probe->first_hit(ray, beyond);
+        const std::vector<Hit> all = probe->all_hits(ray, beyond);
+        several += all.size() > 1;
+        wrong += first.has_value() == all.empty() ||
+                 (first && !(std::abs(first->distance_mm - all.front().distance_mm) <= 1e-12 * size));
+      }
+    INFO("degree " << profile.degree() << ", " << profile.spans().size() << " spans");
+    CHECK(wrong == 0);
+    CHECK(several > rays.size() / 10);
+  }
+}
+
 TEST_CASE("batches of one to seventeen rays, easy and hard ones mixed", "[meridian]") {
   const Profile paraboloid = Quadric::paraboloid().profile;
   for (const Profile& profile : {paraboloid, random_profile(4, 5)}) {
