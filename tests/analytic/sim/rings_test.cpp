@@ -210,7 +210,7 @@ TEST_CASE("rings: in the plane and in space the same photons have the same fates
   }
 }
 
-TEST_CASE("rings: the near field may be any patch in the plane; the light is the same") {
+TEST_CASE("rings: the near field may be any patch in the plane, the light is the same") {
   const auto mirror = cad::make_meridian_reflector(paper_profile);
   const std::vector<double> radii{10, 50, 70};
   auto given = options(50'000, Sampler::random);

@@ -115,7 +115,8 @@ Profile walled_bowl(double wall_mm) {
 
 }  // namespace
 
-TEST_CASE("mesh finds meridian's hits; what it loses grazes the surface within the chord error", "[mesh]") {
+TEST_CASE("mesh finds meridian's hits, and what it loses grazes the surface within the chord error",
+          "[mesh]") {
   constexpr std::uint64_t count = 20000;
   for (const Quadric& q : Quadric::all())
     for (const double relative : {1e-3, 1e-4}) {
@@ -422,7 +423,7 @@ TEST_CASE("mesh leaves the caller's arithmetic as it was", "[mesh]") {
   CHECK(tiny / 4 > 0);
 }
 
-TEST_CASE("mesh: rays that are no rays meet nothing; options that are none are refused", "[mesh]") {
+TEST_CASE("mesh: rays that are no rays meet nothing, and options that are none are refused", "[mesh]") {
   const Profile profile = Quadric::paraboloid().profile;
   const auto reflector = cad::make_mesh_reflector(profile, {});
   const auto probe = reflector->probe();

@@ -42,7 +42,7 @@ TEST_CASE("a parabola is met exactly, with its derivatives") {
   CHECK_FALSE(profile.is_rational());
 }
 
-TEST_CASE("a quarter circle stays on its circle; area is half a sphere, length a quarter turn") {
+TEST_CASE("a quarter circle stays on its circle, its area half a sphere, its length a quarter turn") {
   const Profile profile = quarter_circle();
   for (double u = 0; u <= 1; u += 0.05) {
     const MeridianPoint p = profile.at(u);

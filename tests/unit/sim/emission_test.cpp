@@ -42,7 +42,7 @@ TEST_CASE("a photon's numbers do not depend on where the chunk starts") {
   }
 }
 
-TEST_CASE("numbers lie in [0, 1), and keys give unrelated sets") {
+TEST_CASE("numbers are at least 0 and below 1, and keys give unrelated sets") {
   std::set<std::uint64_t> keys;
   for (std::uint64_t seed : {0ull, 1ull, 2ull, ~0ull})
     for (std::uint64_t stream : {0ull, 1ull, 2ull, ~0ull}) keys.insert(photon_key(seed, stream));
@@ -58,7 +58,7 @@ TEST_CASE("numbers lie in [0, 1), and keys give unrelated sets") {
   }
 }
 
-TEST_CASE("scrambled Sobol points are a net for every key; random points are not") {
+TEST_CASE("scrambled Sobol points are a net for every key, random points are not") {
   for (std::uint64_t key = 0; key < 20; ++key) {
     CHECK(is_net(draw(Sampler::sobol, key, 0, 1024), 10));
     CHECK(is_net(draw(Sampler::sobol, key, 4096, 1024), 10));  // any aligned block

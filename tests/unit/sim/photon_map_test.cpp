@@ -68,7 +68,7 @@ TEST_CASE("the bandwidth of the nearest N is the farthest one's distance") {
         Approx(2 / (pi * 4)));
 }
 
-TEST_CASE("fewer photons than neighbours: all of them; none: dark") {
+TEST_CASE("fewer photons than neighbours are all taken, and none is dark") {
   const PhotonMap few(field, put({{1, 0}, {0, 2}}));
   const auto got = few.estimate(std::vector{center}, nearest(std::numeric_limits<std::size_t>::max()));
   CHECK(got.photons[0] == 2);
