@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::uint64_t sets = 4;             ///< fewer give no spread, more waste the points' evenness
 constexpr std::uint64_t first_photons = 512;  ///< of a set: enough for a forecast
+constexpr std::size_t most_probes = 128;      ///< samples by which the error is judged
 constexpr std::size_t first_levels = 6;       ///< of bandwidths, down to some four photons in a kernel
 constexpr std::size_t fewest_levels = 7;      ///< of later stages
 constexpr std::size_t narrower_levels = 4;    ///< than the bandwidth expected to be best
@@ -63,12 +64,8 @@ Probes probes_of(std::span<const FieldSample> samples, std::span<const double> d
   return probes;
 }
 
-/// As few leading binary digits as keep a count within an eighth: low-discrepancy points are most even there.
-std::uint64_t round_up(double count) {
-  const auto whole = static_cast<std::uint64_t>(std::ceil(count));
-  const int drop = std::max(0, static_cast<int>(std::bit_width(whole)) - 4);
-  return ((whole + (std::uint64_t{1} << drop) - 1) >> drop) << drop;
-}
+/// The power of two nearest above. Sobol points are most even there: 4096 are as good as 7000.
+std::uint64_t round_up(double count) { return std::bit_ceil(static_cast<std::uint64_t>(std::ceil(count))); }
 
 /// What a stage does.
 struct StagePlan {
@@ -113,9 +110,7 @@ class PhotonStages {
 
  private:
   void stage(const StagePlan& plan) {
-    // A first look is to be cheap; afterwards photons cost more than samples.
-    constexpr std::size_t first_probes = 128, most_probes = 256;
-    probes_ = probes_of(samples_, field_.direct, field_.stages.empty() ? first_probes : most_probes);
+    probes_ = probes_of(samples_, field_.direct, most_probes);
     PhotonOptions photons = request_.photons;
     photons.photons = plan.photons;
     photons.stream += sets * field_.stages.size();
@@ -148,11 +143,11 @@ class PhotonStages {
 
   /// By how much the photons must grow to prove the accuracy, as far as this stage can tell.
   double growth_needed() const {
-    constexpr double least = 2, step = 1.2, most = 1e5;
+    constexpr double step = 2, most = 131072;
     // Stages whose error is expected below this share of the accuracy rarely fail.
     constexpr double headroom = 0.8;
     if (!(rms_ > 0)) return most;
-    double growth = least;
+    double growth = step;
     while (growth < most &&
            best_choice(expected_with(summary_, growth)).error95 > headroom * request_.relative * rms_)
       growth *= step;
@@ -161,8 +156,8 @@ class PhotonStages {
 
   /// The next stage; without photons when no more may be spent.
   StagePlan next_plan(const StagePlan& plan) const {
-    // What is far away is not foreseen well: a stage of some sixth of the cost on the way there pays.
-    constexpr double far = 16, on_the_way = 6, farthest = 64;
+    // What is far away is not foreseen well: a stage of an eighth of the cost on the way there pays.
+    constexpr double far = 16, on_the_way = 8, farthest = 64;
     double growth = growth_needed();
     if (growth > far) growth = std::min(growth / on_the_way, farthest);
     StagePlan next;
@@ -185,10 +180,9 @@ class PhotonStages {
     field_.order = choice_.order;
     field_.energy = photon_sets_.energy();
     field_.counts = photon_sets_.counts();
-    BandwidthLadder all;
-    if (probes_.samples.size() < samples_.size())
-      all = photon_sets_.look(samples_, chosen().kernel_radius_mm, 1);
-    field_.by_set = fields_of(all.empty() ? chosen() : all.front(), choice_.order);
+    field_.by_set = probes_.samples.size() < samples_.size()
+                        ? photon_sets_.fields(samples_, chosen().kernel_radius_mm, choice_.order)
+                        : fields_of(chosen(), choice_.order);
     field_.reflected = mean_of(field_.by_set);
     field_.noise = deviation_of_mean(field_.by_set);
     for (double& value : field_.reflected) value = std::max(0.0, value);

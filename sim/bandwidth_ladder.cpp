@@ -64,6 +64,8 @@ struct PhotonSets::Parts {
   EnergyLedger energy = {};
   PhotonCounts counts = {};
 
+  std::size_t sets() const { return rung == Rung::rings ? rings.size() : maps.size(); }
+
   void add(const EnergyLedger& of_set, const PhotonCounts& counted, std::size_t sets) {
     energy.add(of_set, 1.0 / static_cast<double>(sets));
     counts.add(counted);
@@ -137,7 +139,7 @@ BandwidthLadder PhotonSets::look(std::span<const FieldSample> samples, double wi
   const bool by_rings = parts_->rung == Rung::rings;
   std::vector<double> radii;
   if (by_rings) radii = ring_radii_mm(parts_->scene.near_field, samples);
-  std::vector<std::vector<Look>> sets(by_rings ? parts_->rings.size() : parts_->maps.size());
+  std::vector<std::vector<Look>> sets(parts_->sets());
   tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t set) {
     sets[set] = by_rings ? look_at_rings(parts_->rings[set], radii, widest_radius_mm, ladder.size())
                          : look_at_map(parts_->maps[set], samples, widest_radius_mm, ladder.size());
@@ -148,6 +150,28 @@ BandwidthLadder PhotonSets::look(std::span<const FieldSample> samples, double wi
       ladder[level].fourth.push_back(std::move(set[level].fourth));
     }
   return ladder;
+}
+
+SetFields PhotonSets::fields(std::span<const FieldSample> samples, double kernel_radius_mm, int order) const {
+  CATOPTRIC_EXPECTS(order == 2 || order == 4);
+  SetFields sets(parts_->sets());
+  std::vector<double> radii;
+  if (!parts_->rings.empty()) radii = ring_radii_mm(parts_->scene.near_field, samples);
+  tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t set) {
+    if (!radii.empty()) {
+      Look look = std::move(look_at_rings(parts_->rings[set], radii, kernel_radius_mm, 1).front());
+      sets[set] = std::move(order == 2 ? look.second : look.fourth);
+      return;
+    }
+    const auto estimate = [&](double radius_mm) {
+      return parts_->maps[set].estimate(samples, {Kernel::silverman, {}, radius_mm}).irradiance;
+    };
+    sets[set] = estimate(kernel_radius_mm);
+    if (order == 2) return;
+    const std::vector<double> narrow = estimate(radius_at(kernel_radius_mm, 1));
+    for (std::size_t i = 0; i < narrow.size(); ++i) sets[set][i] = 2 * narrow[i] - sets[set][i];
+  });
+  return sets;
 }
 
 const EnergyLedger& PhotonSets::energy() const { return parts_->energy; }

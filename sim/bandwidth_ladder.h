@@ -53,6 +53,11 @@ class PhotonSets {
   BandwidthLadder look(std::span<const FieldSample> samples, double widest_radius_mm,
                        std::size_t levels) const;
 
+  /// One reading at other samples: as look() gives it, to rounding.
+  /// @in   order 2 or 4
+  /// @cost of photons one sum of weights a sample and set, two for order 4
+  SetFields fields(std::span<const FieldSample> samples, double kernel_radius_mm, int order) const;
+
   const EnergyLedger& energy() const;  ///< mean of the sets
   const PhotonCounts& counts() const;  ///< of all sets together
 

@@ -42,7 +42,10 @@ MeanSquare mean_square(const SetFields& sets, const SetFields* other) {
 /// dozen bounds, so that the chosen one holds in 95 %.
 double excess(double independent, std::size_t sets) {
   const double spread_parts = independent * static_cast<double>(sets - 1);
-  return boost::math::quantile(boost::math::fisher_f(independent, spread_parts), 0.99);
+  using Plain =
+      boost::math::policies::policy<boost::math::policies::promote_double<false>>;  // thrice as fast
+  return boost::math::quantile(boost::math::fisher_f_distribution<double, Plain>(independent, spread_parts),
+                               0.99);
 }
 
 /// Of the bias, by the index that readings have.
@@ -242,8 +245,12 @@ LadderSummary expected_with(const LadderSummary& ladder, double times_the_photon
         seen = changes[decay->level].seen *
                std::pow(decay->likely_share, static_cast<double>(level - decay->level));
       LadderReading& reading = expected.levels[level].orders[i];
-      reading.variance = variance_at(variances, as_today);
-      reading.change_variance = variance_at(change_variances, as_today);
+      const auto expect = [&](const std::vector<double>& today) {
+        const double same_kernel = level < today.size() ? today[level] / times_the_photons : HUGE_VAL;
+        return std::min(variance_at(today, as_today), same_kernel);
+      };
+      reading.variance = expect(variances);
+      reading.change_variance = expect(change_variances);
       reading.change = seen * seen + reading.change_variance;
     }
   }

@@ -23,10 +23,13 @@ class Side {
 
   /// Takes a band's photons out of the chunks, in their order.
   void build(std::size_t band, std::vector<StoredChunk>& chunks, BandedPhotons StoredChunk::*side) {
-    std::vector<std::vector<StoredPhoton>*> stretches;
-    stretches.reserve(chunks.size());
-    for (StoredChunk& chunk : chunks) stretches.push_back(&(chunk.*side)[band]);
-    grids_[band] = PhotonGrid(std::move(stretches));
+    build(band, band + 1, chunks, side);
+  }
+
+  /// Takes all photons into one grid.
+  void build(std::vector<StoredChunk>& chunks, BandedPhotons StoredChunk::*side) {
+    build(0, photon_bands, chunks, side);
+    grids_.resize(1);
   }
 
   /// To be called once all bands are built.
@@ -58,6 +61,15 @@ class Side {
   }
 
  private:
+  void build(std::size_t first, std::size_t end, std::vector<StoredChunk>& chunks,
+             BandedPhotons StoredChunk::*side) {
+    std::vector<std::vector<StoredPhoton>*> stretches;
+    stretches.reserve((end - first) * chunks.size());
+    for (std::size_t band = first; band < end; ++band)
+      for (StoredChunk& chunk : chunks) stretches.push_back(&(chunk.*side)[band]);
+    grids_[first] = PhotonGrid(std::move(stretches));
+  }
+
   /// A radius that holds at least `count` photons, and not many more where they lie evenly.
   double radius_with(const StoredPhoton& centre, std::size_t count, double first_mm) const {
     const auto holds = [&](double radius) {
@@ -107,12 +119,19 @@ struct PhotonMap::Parts {
   const Side& side_of(const Vector3& normal) const { return normal.dot(field.normal()) > 0 ? front : back; }
 
   void build(std::vector<StoredChunk> chunks) {
-    tbb::parallel_for(std::size_t{0}, 2 * photon_bands, [&](std::size_t i) {
-      if (i < photon_bands)
-        front.build(i, chunks, &StoredChunk::front);
-      else
-        back.build(i - photon_bands, chunks, &StoredChunk::back);
-    });
+    // Bands spare memory and are built side by side; of few photons they only make estimates dearer.
+    constexpr std::size_t few_chunks = 16;
+    if (chunks.size() <= few_chunks) {
+      front.build(chunks, &StoredChunk::front);
+      back.build(chunks, &StoredChunk::back);
+    } else {
+      tbb::parallel_for(std::size_t{0}, 2 * photon_bands, [&](std::size_t i) {
+        if (i < photon_bands)
+          front.build(i, chunks, &StoredChunk::front);
+        else
+          back.build(i - photon_bands, chunks, &StoredChunk::back);
+      });
+    }
     front.close();
     back.close();
   }

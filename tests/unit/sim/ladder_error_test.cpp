@@ -145,8 +145,8 @@ TEST_CASE("more photons are expected to show the noise of fewer in a narrower ke
     for (const std::size_t order : {0, 1}) {
       const LadderReading &now = today.levels[level - 1].orders[order],
                           &then = twice.levels[level].orders[order];
-      CHECK(then.variance == Approx(now.variance));
-      CHECK(then.change_variance == Approx(now.change_variance));
+      CHECK(then.variance == Approx(now.variance).epsilon(0.15));
+      CHECK(then.change_variance == Approx(now.change_variance).epsilon(0.15));
     }
   // The made noise is that of random photons: half of it with twice the photons, in a kernel of any size.
   CHECK(twice.levels[0].orders[0].variance == Approx(0.5 * today.levels[0].orders[0].variance).epsilon(0.2));
