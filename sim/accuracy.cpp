@@ -78,21 +78,13 @@ class PhotonStages {
  public:
   PhotonStages(const Scene& scene, std::span<const FieldSample> samples, const AccuracyRequest& request,
                Rung rung, std::vector<double> direct)
-      : scene_(scene),
-        samples_(samples),
-        request_(request),
-        photon_sets_(scene, rung),
-        widest_radius_mm_(widest_kernel_radius_mm(scene.near_field)) {
+      : scene_(scene), samples_(samples), request_(request), photon_sets_(scene, rung) {
     field_.rung = rung;
     field_.direct = std::move(direct);
     field_.sets = sets;
-    constexpr double least_share = 0.4;  // narrower kernels alone would show bias too late
-    const SmoothReach reach =
-        find_breaks(scene, rung == Rung::rings ? UnknownBreaks::folds : UnknownBreaks::edges_and_folds);
-    if (reach.clear_mm < least_share * widest_radius_mm_)
-      field_.breaks = reach.nearest;
-    else
-      widest_radius_mm_ = std::min(widest_radius_mm_, reach.clear_mm);
+    KernelRange range = kernel_range(scene, rung);
+    widest_radius_mm_ = range.widest_radius_mm;
+    field_.breaks = std::move(range.breaks);
   }
 
   AccurateField run() {
@@ -214,7 +206,7 @@ class PhotonStages {
   std::span<const FieldSample> samples_;
   const AccuracyRequest& request_;
   PhotonSets photon_sets_;
-  double widest_radius_mm_;
+  double widest_radius_mm_ = 0;
   AccurateField field_;
   Probes probes_;
   BandwidthLadder ladder_;
@@ -257,6 +249,15 @@ AccurateField by_tubes(const Scene& scene, std::span<const FieldSample> samples,
 }
 
 }  // namespace
+
+KernelRange kernel_range(const Scene& scene, Rung rung) {
+  constexpr double least_share = 0.4;  // narrower kernels alone would show bias too late
+  const double widest_mm = widest_kernel_radius_mm(scene.near_field);
+  SmoothReach reach =
+      find_breaks(scene, rung == Rung::rings ? UnknownBreaks::folds : UnknownBreaks::edges_and_folds);
+  if (reach.clear_mm < least_share * widest_mm) return {widest_mm, std::move(reach.nearest)};
+  return {std::min(widest_mm, reach.clear_mm), {}};
+}
 
 AccurateField reach_accuracy(const Scene& scene, std::span<const FieldSample> samples,
                              const AccuracyRequest& request) {

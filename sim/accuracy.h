@@ -54,6 +54,17 @@ struct AccurateField {
   PhotonCounts counts;
 };
 
+/// The kernels that photons may be looked at with, and why their bias is counted as at a jump: nothing where
+/// the field is smooth as far as they reach.
+struct KernelRange {
+  double widest_radius_mm = 0;
+  std::optional<std::string> breaks;
+};
+
+/// @in    rung rings or photons, valid for the scene
+/// @cost  that of find_breaks
+KernelRange kernel_range(const Scene& scene, Rung rung);
+
 /// Spends the least that proves the accuracy: ray tubes where they are valid, whose error is bounded without
 /// statistics; else sets of photons on the cheapest valid rung, each stage with as many photons as the one
 /// before lets expect to suffice, looked at with the bandwidth and order of least error (best_choice).

@@ -8,6 +8,7 @@
 #include "base/errors.h"
 #include "base/profile.h"
 #include "base/units.h"
+#include "sim/accuracy.h"
 #include "sim/clear_view.h"
 #include "sim/opening.h"
 #include "sim/plane_flights.h"
@@ -54,7 +55,10 @@ class Description {
     near_field();
     more_meetings();
     shadow();
-    if (rung != Rung::tubes) directions();
+    if (rung != Rung::tubes) {
+      directions();
+      jumps(rung);
+    }
     return std::move(findings_);
   }
 
@@ -116,6 +120,15 @@ class Description {
     const double share = emission_map(scene_).solid_angle_sr() / (4 * pi);
     add("emission", fmt::format("{:.3g} of all directions may meet the mirror", share),
         "photons are sent nowhere else");
+  }
+
+  void jumps(Rung rung) {
+    const KernelRange range = kernel_range(scene_, rung);
+    add("jumps of the field",
+        range.breaks ? *range.breaks
+                     : fmt::format("none, nor within {:.3g} mm beside it", range.widest_radius_mm),
+        range.breaks ? "an accuracy counts the kernel's bias as at a jump"
+                     : "an accuracy counts the kernel's bias as a smooth field's");
   }
 
   const Scene& scene_;

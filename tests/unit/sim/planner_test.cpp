@@ -55,6 +55,20 @@ TEST_CASE("an engine that was asked for is used: tubes, which have their own, ar
   CHECK(plan_of({0, 0, 50}, {0, 0, 1}, fixed, Rung::tubes, {}, "meridian").rung == Rung::tubes);
 }
 
+TEST_CASE("the planner says whether the field may jump, where photons would blur it") {
+  const auto found = [](double radius_mm, std::optional<Rung> rung) {
+    const PointSource source({0, 0, 50}, 1);
+    const NearField field = NearField::disc({0, 0, 0}, {0, 0, 1}, radius_mm);
+    for (const Finding& finding : make_plan({source, mirror, {}, field}, {fixed, rung, {}}).findings)
+      if (finding.feature == "jumps of the field") return finding.found;
+    return std::string();
+  };
+  CHECK_THAT(found(50, Rung::photons), Catch::StartsWith("none"));
+  CHECK_THAT(found(150, Rung::photons), Catch::Contains("edge of the beam"));
+  CHECK_THAT(found(150, Rung::rings), Catch::StartsWith("none"));  // they know the edge
+  CHECK(found(150, Rung::tubes).empty());                          // these have nothing to blur
+}
+
 TEST_CASE("every rung has a name that reads back") {
   for (const Rung rung : all_rungs) CHECK(parse_rung(name(rung)) == rung);
   CHECK_FALSE(parse_rung("tube"));
