@@ -82,6 +82,7 @@ class PhotonStages {
     field_.rung = rung;
     field_.direct = std::move(direct);
     field_.sets = sets;
+    probes_ = probes_of(samples_, field_.direct, most_probes);
     KernelRange range = kernel_range(scene, rung);
     widest_radius_mm_ = range.widest_radius_mm;
     field_.breaks = std::move(range.breaks);
@@ -102,7 +103,6 @@ class PhotonStages {
 
  private:
   void stage(const StagePlan& plan) {
-    probes_ = probes_of(samples_, field_.direct, most_probes);
     PhotonOptions photons = request_.photons;
     photons.photons = plan.photons;
     photons.stream += sets * field_.stages.size();
@@ -156,8 +156,8 @@ class PhotonStages {
     next.photons = round_up(growth * static_cast<double>(plan.photons));
     const std::uint64_t left = request_.most_photons - std::min(request_.most_photons, field_.spent_photons);
     if (sets * next.photons > left || next.photons > most_photons) {
-      next.photons = std::min(left / sets, most_photons);
-      if (next.photons <= 2 * plan.photons) return {0, 0};
+      next.photons = std::bit_floor(std::min(left / sets, most_photons));
+      if (next.photons < 2 * plan.photons) return {0, 0};
     }
     const double times = static_cast<double>(next.photons) / static_cast<double>(plan.photons);
     // All wider ones too: they show how bias falls.
