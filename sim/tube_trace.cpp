@@ -59,7 +59,8 @@ TubeTracer::TubeTracer(const Profile& profile, double source_z_mm, const FieldPl
       plane_(plane),
       mirror_(mirror),
       limits_(limits),
-      lift_mm_(Tolerance::for_scale(profile.diagonal_mm()).lift_mm) {
+      lift_mm_(Tolerance::for_scale(profile.diagonal_mm()).lift_mm),
+      opening_(Opening::of(profile)) {
   const auto& spans = profile.spans();
   std::uint64_t run = 0;
   for (std::size_t i = 0; i < spans.size(); ++i) {
@@ -101,6 +102,9 @@ void TubeTracer::land(const Path& path, double reach_mm, std::vector<Landing>& l
 
 void TubeTracer::follow(Path path, std::vector<Landing>& landings, Dropped& dropped) const {
   for (;;) {
+    if (path.interactions > 0 && opening_ &&
+        opening_->lets_out(path.ray.x_mm, path.ray.z_mm, path.ray.dx, path.ray.dz))
+      return land(path, HUGE_VAL, landings);
     const auto hit = section_.first_hit(path.ray, lift_mm_);
     if (path.interactions > 0) land(path, hit ? hit->distance_mm : HUGE_VAL, landings);
     if (!hit) return;

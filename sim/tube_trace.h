@@ -5,6 +5,7 @@
 
 #include "base/planar_hits.h"
 #include "sim/material.h"
+#include "sim/opening.h"
 
 namespace catoptric::sim {
 
@@ -44,7 +45,7 @@ class TubeTracer {
              const Limits& limits);
 
   /// Appends the landings of the ray that leaves at `theta_rad` from +z towards positive radius.
-  /// @cost  one intersection per interaction and one more
+  /// @cost  one intersection per interaction, and one more where the mirror has no opening
   Dropped trace(double theta_rad, std::vector<Landing>& landings) const;
 
   const PlanarMirror& section() const { return section_; }
@@ -61,6 +62,7 @@ class TubeTracer {
   Material mirror_;
   Limits limits_;
   double lift_mm_;
+  std::optional<Opening> opening_;  ///< what leaves through it is asked of no intersection
   std::vector<std::uint64_t>
       smooth_run_;                  ///< of each span: spans joined with a common tangent share a number
   std::vector<bool> through_axis_;  ///< of each run: whether it goes on smoothly on the other side
