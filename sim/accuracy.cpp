@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::uint64_t sets = 4;             ///< fewer give no spread, more waste the points' evenness
 constexpr std::uint64_t first_photons = 512;  ///< of a set: enough for a forecast
-constexpr std::size_t most_probes = 128;      ///< samples by which the error is judged
+constexpr std::size_t few_probes = 128;       ///< samples by which a stage is judged
+constexpr std::size_t most_probes = 2048;     ///< by which a proof is: features may lie between the few
 constexpr std::size_t first_levels = 6;       ///< of bandwidths, down to some four photons in a kernel
 constexpr std::size_t fewest_levels = 7;      ///< of later stages
 constexpr std::size_t narrower_levels = 4;    ///< than the bandwidth expected to be best
@@ -82,7 +83,7 @@ class PhotonStages {
     field_.rung = rung;
     field_.direct = std::move(direct);
     field_.sets = sets;
-    probes_ = probes_of(samples_, field_.direct, most_probes);
+    few_ = probes_of(samples_, field_.direct, few_probes);
     KernelRange range = kernel_range(scene, rung);
     widest_radius_mm_ = range.widest_radius_mm;
     field_.breaks = std::move(range.breaks);
@@ -107,30 +108,33 @@ class PhotonStages {
     photons.photons = plan.photons;
     photons.stream += sets * field_.stages.size();
     photon_sets_.fly(photons, sets, widest_radius_mm_);
-    ladder_ = photon_sets_.look(probes_.samples, widest_radius_mm_, plan.levels);
-    summary_ = summary_of(ladder_, !field_.breaks);
-    choice_ = best_choice(summary_);
     field_.spent_photons += sets * plan.photons;
-    judge(plan.photons);
+    judge(plan, few_);
+    if (field_.proven && few_.samples.size() < samples_.size())
+      judge(plan, probes_of(samples_, field_.direct, most_probes));
+    field_.stages.push_back({sets * plan.photons, field_.error95_rel});
+    stopped_ = request_.watch && !request_.watch(field_.spent_photons, field_.error95_rel);
   }
 
   const LadderLevel& chosen() const { return ladder_[choice_.level]; }
 
-  void judge(std::uint64_t photons) {
-    rms_ = root_mean_square(mean_of(fields_of(chosen(), choice_.order)), probes_.direct);
+  /// What the photons of this stage prove, by the probes.
+  void judge(const StagePlan& plan, const Probes& probes) {
+    ladder_ = photon_sets_.look(probes.samples, widest_radius_mm_, plan.levels);
+    summary_ = summary_of(ladder_, !field_.breaks);
+    choice_ = best_choice(summary_);
+    rms_ = root_mean_square(mean_of(fields_of(chosen(), choice_.order)), probes.direct);
     double error95 = choice_.error95;
     if (photon_sets_.counts().stored == 0) {
       // Light that not one of n photons showed has less than three n-ths of the power (95 %).
-      const double unseen_w = 3 * photon_sets_.energy().emitted_w / static_cast<double>(sets * photons);
+      const double unseen_w = 3 * photon_sets_.energy().emitted_w / static_cast<double>(sets * plan.photons);
       error95 = unseen_w / scene_.near_field.area_mm2();
     }
     const double scale = rms_ > 0 ? 1 / rms_ : HUGE_VAL;
     field_.noise_rel = choice_.noise > 0 ? choice_.noise * scale : 0;
     field_.bias_rel = choice_.bias > 0 ? choice_.bias * scale : 0;
     field_.error95_rel = error95 > 0 ? error95 * scale : 0;
-    field_.stages.push_back({sets * photons, field_.error95_rel});
     field_.proven = field_.error95_rel <= request_.relative;
-    stopped_ = request_.watch && !request_.watch(field_.spent_photons, field_.error95_rel);
   }
 
   /// By how much the photons must grow to prove the accuracy, as far as this stage can tell.
@@ -172,9 +176,9 @@ class PhotonStages {
     field_.order = choice_.order;
     field_.energy = photon_sets_.energy();
     field_.counts = photon_sets_.counts();
-    field_.by_set = probes_.samples.size() < samples_.size()
-                        ? photon_sets_.fields(samples_, chosen().kernel_radius_mm, choice_.order)
-                        : fields_of(chosen(), choice_.order);
+    field_.by_set = fields_of(chosen(), choice_.order);
+    if (field_.by_set.front().size() < samples_.size())
+      field_.by_set = photon_sets_.fields(samples_, chosen().kernel_radius_mm, choice_.order);
     field_.reflected = mean_of(field_.by_set);
     field_.noise = deviation_of_mean(field_.by_set);
     for (double& value : field_.reflected) value = std::max(0.0, value);
@@ -208,7 +212,7 @@ class PhotonStages {
   PhotonSets photon_sets_;
   double widest_radius_mm_ = 0;
   AccurateField field_;
-  Probes probes_;
+  Probes few_;
   BandwidthLadder ladder_;
   LadderSummary summary_;
   LadderChoice choice_;
