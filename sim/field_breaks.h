@@ -31,7 +31,7 @@ struct SmoothReach {
 /// some 500 rays is not seen.
 /// @out   a break on the patch also for what cannot be told: sources other than points, light through the
 ///        mirror, a real near field that is not rings' own, light that meets the mirror again
-/// @cost  some 0.05 ms for a source on the axis, else 0.2 ms, with the engine "meridian"
+/// @cost  some 0.1 ms for a source on the axis, else 0.25 ms, with the engine "meridian"
 SmoothReach find_breaks(const Scene& scene, UnknownBreaks unknown);
 
 }  // namespace catoptric::sim

@@ -40,7 +40,7 @@ struct Kept {
 /// The leaning screen moved to where the beam's edge crosses it.
 const std::vector<Override> across_the_edge{{"near_field.center", "[70, 0, -40]", "test"}};
 
-/// The same screen so large that the beam is a spot on three hundredths of it.
+/// The same screen so large that the beam is a spot on a seventieth of it.
 const std::vector<Override> spot_on_a_wall{{"near_field.center", "[0, 0, -40]", "test"},
                                            {"near_field.width", "1600", "test"},
                                            {"near_field.height", "1600", "test"},
