@@ -11,6 +11,7 @@
 #include "sim/bandwidth_ladder.h"
 #include "sim/field_breaks.h"
 #include "sim/ladder_error.h"
+#include "sim/probes.h"
 #include "sim/simulation.h"
 #include "sim/tubes.h"
 
@@ -19,16 +20,22 @@ namespace {
 
 constexpr std::uint64_t sets = 4;             ///< fewer give no spread, more waste the points' evenness
 constexpr std::uint64_t first_photons = 512;  ///< of a set: enough for a forecast
-constexpr std::size_t few_probes = 128;       ///< samples by which a stage is judged
-constexpr std::size_t most_probes = 2048;     ///< by which a proof is: features may lie between the few
+constexpr std::size_t probes_smooth = 128;    ///< samples by which a stage is judged
+constexpr std::size_t probes_broken = 512;    ///< where what counts may lie along a line
 constexpr std::size_t first_levels = 6;       ///< of bandwidths, down to some four photons in a kernel
 constexpr std::size_t fewest_levels = 7;      ///< of later stages
 constexpr std::size_t narrower_levels = 4;    ///< than the bandwidth expected to be best
 
-double root_mean_square(std::span<const double> a, std::span<const double> b) {
+/// Of the sum of two fields, by samples that stand for shares.
+double root_mean_square(std::span<const double> a, std::span<const double> b,
+                        std::span<const double> shares) {
   std::vector<double> squares(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) squares[i] = (a[i] + b[i]) * (a[i] + b[i]);
-  return std::sqrt(ordered_sum(squares) / static_cast<double>(squares.size()));
+  for (std::size_t i = 0; i < a.size(); ++i) squares[i] = shares[i] * (a[i] + b[i]) * (a[i] + b[i]);
+  return std::sqrt(ordered_sum(squares));
+}
+
+double root_mean_square(std::span<const double> a, std::span<const double> b) {
+  return root_mean_square(a, b, std::vector<double>(a.size(), 1 / static_cast<double>(a.size())));
 }
 
 void check(const Scene& scene, const AccuracyRequest& request) {
@@ -44,25 +51,13 @@ void check(const Scene& scene, const AccuracyRequest& request) {
                         "model.rung", *objection, "model.rung = \"auto\""});
 }
 
-/// The samples by which the error is judged: so many, spread over all of them without a period.
-struct Probes {
-  std::vector<FieldSample> samples;
-  std::vector<double> direct;
-};
-
-Probes probes_of(std::span<const FieldSample> samples, std::span<const double> direct, std::size_t most) {
-  constexpr double golden = 0.61803398874989485;
-  const std::size_t count = std::min(most, samples.size());
-  const double stride = static_cast<double>(samples.size()) / static_cast<double>(count);
-  Probes probes;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double turn = golden * static_cast<double>(i), within = turn - std::floor(turn);
-    const auto pick =
-        count == samples.size() ? i : static_cast<std::size_t>((static_cast<double>(i) + within) * stride);
-    probes.samples.push_back(samples[std::min(pick, samples.size() - 1)]);
-    probes.direct.push_back(direct[std::min(pick, samples.size() - 1)]);
-  }
-  return probes;
+/// The list's elements that were picked.
+template <typename Element>
+std::vector<Element> picked(std::span<const Element> list, const Probes& probes) {
+  std::vector<Element> some;
+  some.reserve(probes.picks.size());
+  for (const std::size_t i : probes.picks) some.push_back(list[i]);
+  return some;
 }
 
 /// The power of two nearest above. Sobol points are most even there: 4096 are as good as 7000.
@@ -79,11 +74,14 @@ class PhotonStages {
  public:
   PhotonStages(const Scene& scene, std::span<const FieldSample> samples, const AccuracyRequest& request,
                Rung rung, std::vector<double> direct)
-      : scene_(scene), samples_(samples), request_(request), photon_sets_(scene, rung) {
+      : scene_(scene),
+        samples_(samples),
+        request_(request),
+        photon_sets_(scene, rung),
+        picker_(photon_sets_.cells_of(samples)) {
     field_.rung = rung;
     field_.direct = std::move(direct);
     field_.sets = sets;
-    few_ = probes_of(samples_, field_.direct, few_probes);
     KernelRange range = kernel_range(scene, rung);
     widest_radius_mm_ = range.widest_radius_mm;
     field_.breaks = std::move(range.breaks);
@@ -109,21 +107,22 @@ class PhotonStages {
     photons.stream += sets * field_.stages.size();
     photon_sets_.fly(photons, sets, widest_radius_mm_);
     field_.spent_photons += sets * plan.photons;
-    judge(plan, few_);
-    if (field_.proven && few_.samples.size() < samples_.size())
-      judge(plan, probes_of(samples_, field_.direct, most_probes));
+    judge(plan);
     field_.stages.push_back({sets * plan.photons, field_.error95_rel});
     stopped_ = request_.watch && !request_.watch(field_.spent_photons, field_.error95_rel);
   }
 
   const LadderLevel& chosen() const { return ladder_[choice_.level]; }
 
-  /// What the photons of this stage prove, by the probes.
-  void judge(const StagePlan& plan, const Probes& probes) {
-    ladder_ = photon_sets_.look(probes.samples, widest_radius_mm_, plan.levels);
-    summary_ = summary_of(ladder_, !field_.breaks);
+  /// What the photons of this stage prove, by samples picked anew: half of them where the light falls.
+  void judge(const StagePlan& plan) {
+    const Probes probes =
+        picker_.pick(photon_sets_.light_by_cell(), field_.breaks ? probes_broken : probes_smooth);
+    ladder_ = photon_sets_.look(picked(samples_, probes), widest_radius_mm_, plan.levels);
+    summary_ = summary_of(ladder_, !field_.breaks, probes.shares);
     choice_ = best_choice(summary_);
-    rms_ = root_mean_square(mean_of(fields_of(chosen(), choice_.order)), probes.direct);
+    rms_ = root_mean_square(mean_of(fields_of(chosen(), choice_.order)),
+                            picked(std::span<const double>(field_.direct), probes), probes.shares);
     double error95 = choice_.error95;
     if (photon_sets_.counts().stored == 0) {
       // Light that not one of n photons showed has less than three n-ths of the power (95 %).
@@ -176,9 +175,7 @@ class PhotonStages {
     field_.order = choice_.order;
     field_.energy = photon_sets_.energy();
     field_.counts = photon_sets_.counts();
-    field_.by_set = fields_of(chosen(), choice_.order);
-    if (field_.by_set.front().size() < samples_.size())
-      field_.by_set = photon_sets_.fields(samples_, chosen().kernel_radius_mm, choice_.order);
+    field_.by_set = photon_sets_.fields(samples_, chosen().kernel_radius_mm, choice_.order);
     field_.reflected = mean_of(field_.by_set);
     field_.noise = deviation_of_mean(field_.by_set);
     for (double& value : field_.reflected) value = std::max(0.0, value);
@@ -210,9 +207,9 @@ class PhotonStages {
   std::span<const FieldSample> samples_;
   const AccuracyRequest& request_;
   PhotonSets photon_sets_;
+  ProbePicker picker_;
   double widest_radius_mm_ = 0;
   AccurateField field_;
-  Probes few_;
   BandwidthLadder ladder_;
   LadderSummary summary_;
   LadderChoice choice_;
@@ -257,8 +254,8 @@ AccurateField by_tubes(const Scene& scene, std::span<const FieldSample> samples,
 KernelRange kernel_range(const Scene& scene, Rung rung) {
   constexpr double least_share = 0.4;  // narrower kernels alone would show bias too late
   const double widest_mm = widest_kernel_radius_mm(scene.near_field);
-  SmoothReach reach =
-      find_breaks(scene, rung == Rung::rings ? UnknownBreaks::folds : UnknownBreaks::edges_and_folds);
+  SmoothReach reach = find_breaks(
+      scene, rung == Rung::rings ? UnknownBreaks::folds : UnknownBreaks::edges_and_folds, widest_mm);
   if (reach.clear_mm < least_share * widest_mm) return {widest_mm, std::move(reach.nearest)};
   return {std::min(widest_mm, reach.clear_mm), {}};
 }

@@ -74,7 +74,7 @@ KernelRange kernel_range(const Scene& scene, Rung rung);
 /// @fails InputError for an accuracy that is not above 0, a wanted rung that is not valid, fewer photons
 ///        allowed than the first look takes (2048)
 /// @cost  that of all stages: spent_photons flights, and in each stage a ladder of bandwidths at 128 samples,
-///        where these prove it once more at up to 2048.
+///        512 where the field breaks, half of them where the light falls (see ProbePicker).
 ///        All photons of a stage are in memory, 17 bytes each; of rings 8 bytes a bin
 AccurateField reach_accuracy(const Scene& scene, std::span<const FieldSample> samples,
                              const AccuracyRequest& request);

@@ -9,6 +9,7 @@
 #include "base/contract.h"
 #include "base/units.h"
 #include "sim/photon_map.h"
+#include "sim/probes.h"
 #include "sim/rings.h"
 
 namespace catoptric::sim {
@@ -21,6 +22,10 @@ struct Look {
 
 double radius_at(double widest_radius_mm, std::size_t level) {
   return widest_radius_mm * std::pow(0.5, 0.5 * static_cast<double>(level));
+}
+
+FieldCells cells_for(const NearField& field, Rung rung) {
+  return rung == Rung::rings ? FieldCells::rings(farthest_radius_mm(field)) : FieldCells::squares(field);
 }
 
 double bandwidth_mm2(double kernel_radius_mm) { return 0.5 * kernel_radius_mm * kernel_radius_mm; }
@@ -59,6 +64,7 @@ struct PhotonSets::Parts {
   const Scene& scene;
   Rung rung;
   std::optional<PhotonFlights> flights;  ///< of rung photons
+  FieldCells cells;
   std::vector<PhotonMap> maps = {};
   std::vector<RingPhotons> rings = {};
   EnergyLedger energy = {};
@@ -108,7 +114,8 @@ struct PhotonSets::Parts {
   }
 };
 
-PhotonSets::PhotonSets(const Scene& scene, Rung rung) : parts_(new Parts{scene, rung, {}}) {
+PhotonSets::PhotonSets(const Scene& scene, Rung rung)
+    : parts_(new Parts{scene, rung, {}, cells_for(scene.near_field, rung)}) {
   CATOPTRIC_EXPECTS(rung != Rung::tubes);
   if (rung == Rung::photons) parts_->flights.emplace(scene, RecordedArea::about(scene.near_field, 0));
 }
@@ -152,6 +159,35 @@ BandwidthLadder PhotonSets::look(std::span<const FieldSample> samples, double wi
   return ladder;
 }
 
+std::vector<std::uint32_t> PhotonSets::cells_of(std::span<const FieldSample> samples) const {
+  const NearField& field = parts_->scene.near_field;
+  std::vector<std::uint32_t> cells;
+  cells.reserve(samples.size());
+  if (parts_->rung == Rung::rings)
+    for (const double radius_mm : ring_radii_mm(field, samples)) cells.push_back(parts_->cells.at(radius_mm));
+  else
+    for (const FieldSample& sample : samples)
+      cells.push_back(parts_->cells.at(field.to_plane(sample.point_mm)));
+  return cells;
+}
+
+std::vector<double> PhotonSets::light_by_cell() const {
+  constexpr std::size_t photons_of_a_set = 1024;
+  std::vector<double> light(FieldCells::count, 0.0);
+  for (const PhotonMap& map : parts_->maps)
+    for (const StoredPhoton& photon : map.some(photons_of_a_set))
+      if (const Vector2 at{photon.x_mm, photon.y_mm}; parts_->scene.near_field.contains(at))
+        light[parts_->cells.at(at)] += 1;
+  for (const RingPhotons& rings : parts_->rings) {
+    const double reach_mm = parts_->cells.reach_mm(), cell_mm2 = reach_mm * reach_mm / FieldCells::count;
+    const RingStore::Places places = rings.landed(cell_mm2);
+    for (std::size_t i = 0; i < places.squares.size(); ++i)
+      if (const double radius_mm = std::sqrt(places.squares[i]); radius_mm <= reach_mm)
+        light[parts_->cells.at(radius_mm)] += places.photons[i];
+  }
+  return light;
+}
+
 SetFields PhotonSets::fields(std::span<const FieldSample> samples, double kernel_radius_mm, int order) const {
   CATOPTRIC_EXPECTS(order == 2 || order == 4);
   SetFields sets(parts_->sets());
@@ -163,13 +199,10 @@ SetFields PhotonSets::fields(std::span<const FieldSample> samples, double kernel
       sets[set] = std::move(order == 2 ? look.second : look.fourth);
       return;
     }
-    const auto estimate = [&](double radius_mm) {
-      return parts_->maps[set].estimate(samples, {Kernel::silverman, {}, radius_mm}).irradiance;
-    };
-    sets[set] = estimate(kernel_radius_mm);
-    if (order == 2) return;
-    const std::vector<double> narrow = estimate(radius_at(kernel_radius_mm, 1));
-    for (std::size_t i = 0; i < narrow.size(); ++i) sets[set][i] = 2 * narrow[i] - sets[set][i];
+    auto levels = parts_->maps[set].ladder(samples, kernel_radius_mm, order == 2 ? 1 : 2);
+    sets[set] = std::move(levels.front());
+    for (std::size_t i = 0; order == 4 && i < samples.size(); ++i)
+      sets[set][i] = 2 * levels[1][i] - sets[set][i];
   });
   return sets;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -52,6 +53,11 @@ class PhotonSets {
   /// @cost  of photons one gathering a sample and set, of rings one estimate a level, sample and set
   BandwidthLadder look(std::span<const FieldSample> samples, double widest_radius_mm,
                        std::size_t levels) const;
+
+  /// Which cells samples lie in, and how much light falls on each, W to a common factor, as far as some
+  /// thousand photons tell.
+  std::vector<std::uint32_t> cells_of(std::span<const FieldSample> samples) const;
+  std::vector<double> light_by_cell() const;
 
   /// One reading at other samples: as look() gives it, to rounding.
   /// @in   order 2 or 4

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t rows = 17;     ///< of rays along all of the generatrix
 constexpr std::size_t columns = 32;  ///< of rays round the axis
-constexpr std::size_t edge_columns = 256;
+constexpr std::size_t fewest_edge_columns = 32, most_edge_columns = 256;
 
 /// A ray from the source by way of a point of the mirror.
 struct Node {
@@ -27,8 +27,19 @@ struct Node {
   Vector2 plane_mm = Vector2::Zero();  ///< where, in plane coordinates of the near field
 };
 
-Node node_by(const Scene& scene, const MeridianPoint& at, double azimuth_rad) {
-  const Vector3 out(std::cos(azimuth_rad), std::sin(azimuth_rad), 0);
+/// Unit vectors away from the axis, evenly round it.
+std::vector<Vector3> ways_out(std::size_t count) {
+  std::vector<Vector3> ways;
+  ways.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double azimuth = 2 * pi * static_cast<double>(i) / static_cast<double>(count);
+    ways.emplace_back(std::cos(azimuth), std::sin(azimuth), 0);
+  }
+  return ways;
+}
+
+/// @in out: away from the axis, unit
+Node node_by(const Scene& scene, const MeridianPoint& at, const Vector3& out) {
   const Vector3 point = at.r_mm * out + Vector3(0, 0, at.z_mm);
   const Vector3 normal = (at.dz * out - Vector3(0, 0, at.dr)).normalized();
   const NearField& field = scene.near_field;
@@ -51,12 +62,13 @@ double outside_mm(const NearField& field, const Vector2& plane_mm) {
                     std::max(0.0, std::abs(plane_mm.y()) - field.half_height_mm()));
 }
 
-/// How far from the patch the image of a circle of the mirror stays.
-double clear_of_circle(const Scene& scene, const MeridianPoint& at) {
+/// How far from the patch the image of a circle of the mirror stays, by so many of its points.
+double clear_of_circle(const Scene& scene, const MeridianPoint& at, std::size_t points) {
+  const std::vector<Vector3> ways = ways_out(points);
   double clear = HUGE_VAL;
-  Node last = node_by(scene, at, 0);
-  for (std::size_t column = 1; column <= edge_columns; ++column) {
-    const Node next = node_by(scene, at, 2 * pi * static_cast<double>(column) / edge_columns);
+  Node last = node_by(scene, at, ways.back());
+  for (const Vector3& way : ways) {
+    const Node next = node_by(scene, at, way);
     // Where part of it goes away from the plane the rest comes from far away, nobody knows how.
     if (last.lands != next.lands) return 0;
     if (next.lands) {
@@ -71,20 +83,30 @@ double clear_of_circle(const Scene& scene, const MeridianPoint& at) {
   return std::max(0.0, clear);
 }
 
+/// The same by as many points as it takes to know that it is enough.
+double clear_of_circle(const Scene& scene, const MeridianPoint& at, double enough_mm) {
+  double clear = 0;
+  for (std::size_t points = fewest_edge_columns; points <= most_edge_columns && clear < enough_mm;
+       points *= 2)
+    clear = clear_of_circle(scene, at, points);
+  return clear;
+}
+
 /// The rays of one smooth stretch, rows along the generatrix and columns round the axis.
 class Sheet {
  public:
   Sheet(const Scene& scene, const SmoothStretch& stretch, std::size_t row_count)
       : scene_(scene), rows_(row_count) {
     const Profile& profile = scene.reflector.profile();
+    const std::vector<Vector3> ways = ways_out(columns);
+    nodes_.reserve(rows_ * columns);
     const double step = (stretch.last - stretch.first) / static_cast<double>(rows_ - 1);
     for (std::size_t row = 0; row < rows_; ++row) {
       const MeridianPoint at = row == 0 ? stretch.begin
                                : row + 1 == rows_
                                    ? stretch.end
                                    : profile.at(stretch.first + static_cast<double>(row) * step);
-      for (std::size_t column = 0; column < columns; ++column)
-        nodes_.push_back(node_by(scene, at, 2 * pi * static_cast<double>(column) / columns));
+      for (const Vector3& way : ways) nodes_.push_back(node_by(scene, at, way));
     }
   }
 
@@ -96,6 +118,7 @@ class Sheet {
   /// How far from the patch cells stay that turn over, crowd, or partly land nowhere.
   double clear_of_breaks() const {
     std::vector<Cell> cells;
+    cells.reserve((rows_ - 1) * columns);
     for (std::size_t row = 0; row + 1 < rows_; ++row)
       for (std::size_t column = 0; column < columns; ++column) cells.push_back(cell_at(row, column));
     double clear = HUGE_VAL;
@@ -226,7 +249,7 @@ std::optional<std::string> untold(const Scene& scene, UnknownBreaks unknown) {
 
 }  // namespace
 
-SmoothReach find_breaks(const Scene& scene, UnknownBreaks unknown) {
+SmoothReach find_breaks(const Scene& scene, UnknownBreaks unknown, double enough_mm) {
   if (auto reason = untold(scene, unknown)) return {0, reason};
   SmoothReach reach;
   const auto nearer = [&](double clear_mm, const char* what) {
@@ -243,8 +266,8 @@ SmoothReach find_breaks(const Scene& scene, UnknownBreaks unknown) {
     if (reach.clear_mm == 0) break;
     if (unknown == UnknownBreaks::edges_and_folds) {
       const char* edge = "an edge of the beam lies on the near field or beside it";
-      if (stretch.edge_at_begin) nearer(clear_of_circle(scene, stretch.begin), edge);
-      if (stretch.edge_at_end) nearer(clear_of_circle(scene, stretch.end), edge);
+      if (stretch.edge_at_begin) nearer(clear_of_circle(scene, stretch.begin, enough_mm), edge);
+      if (stretch.edge_at_end) nearer(clear_of_circle(scene, stretch.end, enough_mm), edge);
     }
     nearer(sheet.clear_of_breaks(), "the beam has a fold or a focus on the near field or beside it");
   }

@@ -18,7 +18,7 @@ struct MeanSquare {
 };
 
 /// Of the difference between two readings of the same sets, or of one reading's noise (`other` null).
-MeanSquare mean_square(const SetFields& sets, const SetFields* other) {
+MeanSquare mean_square(const SetFields& sets, const SetFields* other, std::span<const double> shares) {
   const std::size_t count = sets.front().size();
   const double n = static_cast<double>(sets.size());
   std::vector<double> values(count), variances(count);
@@ -30,11 +30,10 @@ MeanSquare mean_square(const SetFields& sets, const SetFields* other) {
       const double off = sets[set][i] - (other ? (*other)[set][i] : 0) - mean;
       square += off * off / (n * (n - 1));
     }
-    values[i] = mean * mean;
-    variances[i] = square;
+    values[i] = shares[i] * mean * mean;
+    variances[i] = shares[i] * square;
   }
-  return {ordered_sum(values) / static_cast<double>(count),
-          ordered_sum(variances) / static_cast<double>(count)};
+  return {ordered_sum(values), ordered_sum(variances)};
 }
 
 /// By how much a mean square with so many independent parts may exceed its expectation, when the expectation
@@ -140,12 +139,12 @@ double bias_bound(const std::vector<Change>& changes, std::size_t from, const st
 }
 
 /// A variance between levels, and beyond the widest: by as much a level as between the two widest, but no
-/// less than for random photons, whose variance goes as 1 / photons, and no more than for the evenest,
-/// photons^(-3/2).
+/// less than for random photons, whose variance goes as 1 / photons, and no more than measured of the
+/// evenest, Sobol points under a wide kernel on a smooth field.
 double variance_at(const std::vector<double>& by_level, double level) {
   const auto at = [&](std::size_t i) { return std::log2(std::max(by_level[i], 1e-300)); };
   if (level <= 0) {
-    const double a_level = by_level.size() > 1 ? std::clamp(at(1) - at(0), 1.0, 1.5) : 1.0;
+    const double a_level = by_level.size() > 1 ? std::clamp(at(1) - at(0), 1.0, 2.5) : 1.0;
     return by_level.front() * std::exp2(a_level * level);
   }
   const double last = static_cast<double>(by_level.size() - 1);
@@ -178,8 +177,12 @@ const SetFields& fields_of(const LadderLevel& level, int order) {
   return order == 2 ? level.second : level.fourth;
 }
 
-LadderSummary summary_of(const BandwidthLadder& ladder, bool smooth) {
+LadderSummary summary_of(const BandwidthLadder& ladder, bool smooth, std::span<const double> shares) {
   CATOPTRIC_EXPECTS(ladder.size() >= 2 && ladder.front().second.size() >= 2);
+  const std::size_t samples = ladder.front().second.front().size();
+  CATOPTRIC_EXPECTS(shares.empty() || shares.size() == samples);
+  std::vector<double> equal;
+  if (shares.empty()) shares = equal = std::vector<double>(samples, 1 / static_cast<double>(samples));
   LadderSummary summary;
   summary.smooth = smooth;
   for (std::size_t level = 0; level < ladder.size(); ++level) {
@@ -188,9 +191,9 @@ LadderSummary summary_of(const BandwidthLadder& ladder, bool smooth) {
     read.excess = excess(at.independent, at.second.size());
     for (std::size_t i = 0; i < orders.size(); ++i) {
       const SetFields& sets = fields_of(at, orders[i]);
-      read.orders[i].variance = mean_square(sets, nullptr).variance;
+      read.orders[i].variance = mean_square(sets, nullptr, shares).variance;
       if (level + 1 == ladder.size()) continue;
-      const MeanSquare change = mean_square(sets, &fields_of(ladder[level + 1], orders[i]));
+      const MeanSquare change = mean_square(sets, &fields_of(ladder[level + 1], orders[i]), shares);
       read.orders[i].change = change.value;
       read.orders[i].change_variance = change.variance;
     }

@@ -31,8 +31,10 @@ struct LadderSummary {
   bool smooth = false;        ///< the field is known to have no jumps, folds or foci
 };
 
-/// @in two levels and two sets at least; smooth: what is known of the field (see field_breaks.h)
-LadderSummary summary_of(const BandwidthLadder& ladder, bool smooth);
+/// @in two levels and two sets at least; smooth: what is known of the field (see field_breaks.h); shares: of
+/// the
+///     field, that each sample stands for, nothing where all stand for the same
+LadderSummary summary_of(const BandwidthLadder& ladder, bool smooth, std::span<const double> shares = {});
 
 /// One way to read a ladder: a level, and which of its two estimates.
 struct LadderChoice {

@@ -118,10 +118,9 @@ void PhotonGrid::add_within(const StoredPhoton& centre, double radius_mm, Kernel
   });
 }
 
-void PhotonGrid::add_within(const StoredPhoton& centre, double widest_radius_mm,
-                            RadialMoments& moments) const {
+void PhotonGrid::add_within(const StoredPhoton& centre, double widest_radius_mm, LadderSum& sum) const {
   for_each_stretch(centre, widest_radius_mm, [&](std::size_t first, std::size_t count) {
-    moments.add(x_.data() + first, y_.data() + first, count);
+    sum.add(x_.data() + first, y_.data() + first, count);
   });
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sim/kernel_sum.h"
-#include "sim/radial_moments.h"
+#include "sim/ladder_sum.h"
 #include "sim/stored_photons.h"
 
 namespace catoptric::sim {
@@ -29,10 +29,17 @@ class PhotonGrid {
   void add_within(const StoredPhoton& centre, double radius_mm, KernelSum& sum) const;
 
   /// The same for the kernels of a ladder of radii.
-  void add_within(const StoredPhoton& centre, double widest_radius_mm, RadialMoments& moments) const;
+  void add_within(const StoredPhoton& centre, double widest_radius_mm, LadderSum& sum) const;
 
   /// Photons in cells that lie wholly within the radius; never more than lie within it.
   std::size_t surely_within(const StoredPhoton& centre, double radius_mm) const;
+
+  /// Hands over every so-manieth photon, in the order of the cells.
+  /// @in at least 1
+  template <typename Take>
+  void take_every(std::size_t stride, const Take& take) const {
+    for (std::size_t i = stride / 2; i < size_; i += stride) take(StoredPhoton{x_[i], y_[i]});
+  }
 
   /// Appends the squared distances of the photons within the radius, border included.
   void append_squares(const StoredPhoton& centre, double radius_mm, std::vector<double>& squares_mm2) const;

@@ -10,8 +10,8 @@
 #include "base/units.h"
 #include "sim/edge_correction.h"
 #include "sim/kernel_sum.h"
+#include "sim/ladder_sum.h"
 #include "sim/photon_grid.h"
-#include "sim/radial_moments.h"
 
 namespace catoptric::sim {
 namespace {
@@ -43,8 +43,13 @@ class Side {
     for (const PhotonGrid& grid : grids_) grid.add_within(centre, radius_mm, sum);
   }
 
-  void add_within(const StoredPhoton& centre, double radius_mm, RadialMoments& moments) const {
-    for (const PhotonGrid& grid : grids_) grid.add_within(centre, radius_mm, moments);
+  void add_within(const StoredPhoton& centre, double radius_mm, LadderSum& sum) const {
+    for (const PhotonGrid& grid : grids_) grid.add_within(centre, radius_mm, sum);
+  }
+
+  void append_every(std::size_t stride, std::vector<StoredPhoton>& photons) const {
+    for (const PhotonGrid& grid : grids_)
+      grid.take_every(stride, [&](const StoredPhoton& photon) { photons.push_back(photon); });
   }
 
   /// Squared distances of the nearest `count` photons, at most all of them; nearest are not sorted.
@@ -200,23 +205,33 @@ MapEstimate PhotonMap::estimate(std::span<const FieldSample> samples, const Esti
   return out;
 }
 
+std::vector<StoredPhoton> PhotonMap::some(std::size_t wanted) const {
+  const std::size_t stride = std::max<std::size_t>(
+      1, (parts_->front.size() + parts_->back.size()) / std::max<std::size_t>(1, wanted));
+  std::vector<StoredPhoton> photons;
+  parts_->front.append_every(stride, photons);
+  parts_->back.append_every(stride, photons);
+  return photons;
+}
+
 std::vector<std::vector<double>> PhotonMap::ladder(std::span<const FieldSample> samples,
                                                    double widest_radius_mm, std::size_t levels) const {
   std::vector<std::vector<double>> fields(levels, std::vector<double>(samples.size()));
+  std::vector<double> radii(levels);
+  for (std::size_t level = 0; level < levels; ++level)
+    radii[level] = widest_radius_mm * std::pow(0.5, 0.5 * static_cast<double>(level));
   constexpr std::size_t chunk = 16;
   tbb::parallel_for(std::size_t{0}, (samples.size() + chunk - 1) / chunk, [&](std::size_t part) {
-    RadialMoments moments(widest_radius_mm, levels);
+    LadderSum sum(widest_radius_mm, levels);
     std::vector<double> weights(levels);
     for (std::size_t i = part * chunk; i < std::min(samples.size(), (part + 1) * chunk); ++i) {
       const Vector2 at = parts_->field.to_plane(samples[i].point_mm);
-      moments.start({at.x(), at.y()});
-      parts_->side_of(samples[i].normal).add_within({at.x(), at.y()}, widest_radius_mm, moments);
-      moments.weights(weights);
-      for (std::size_t level = 0; level < levels; ++level) {
-        const double radius = moments.radius_mm(level);
-        fields[level][i] = parts_->photon_power_w / (pi * radius * radius) * weights[level] /
-                           kernel_mass_inside(Kernel::silverman, radius, parts_->area, at);
-      }
+      sum.start({at.x(), at.y()});
+      parts_->side_of(samples[i].normal).add_within({at.x(), at.y()}, widest_radius_mm, sum);
+      sum.weights(weights);
+      for (std::size_t level = 0; level < levels; ++level)
+        fields[level][i] = parts_->photon_power_w / (pi * radii[level] * radii[level]) * weights[level] /
+                           kernel_mass_inside(Kernel::silverman, radii[level], parts_->area, at);
     }
   });
   return fields;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/kernel.h"
+#include "sim/stored_photons.h"
 #include "sim/tracer.h"
 
 namespace catoptric::sim {
@@ -63,11 +64,14 @@ class PhotonMap {
   /// @from  paper eq. 8
   MapEstimate estimate(std::span<const FieldSample> samples, const EstimateOptions& options) const;
 
+  /// About so many photons of both sides, spread over all of them as they lie.
+  std::vector<StoredPhoton> some(std::size_t wanted) const;
+
   /// Irradiance at the samples under the Silverman kernel with a ladder of fixed radii, each narrower than
   /// the one before by the root of two, W/mm^2.
   /// @in    as estimate(); a positive radius
   /// @out   [level][sample], widest first; as estimate() gives it, to rounding
-  /// @cost  that of the widest radius alone, some 2 ns a photon within it
+  /// @cost  that of the widest radius alone, some 1 ns a photon within it
   std::vector<std::vector<double>> ladder(std::span<const FieldSample> samples, double widest_radius_mm,
                                           std::size_t levels) const;
 

@@ -23,13 +23,6 @@
 namespace catoptric::sim {
 namespace {
 
-/// Farthest point of the near field from the axis, in its plane.
-double cover_radius_mm(const NearField& field) {
-  const Vector2 axis = field.to_plane({0, 0, field.center_mm().z()});
-  if (field.shape() == NearField::Shape::disc) return axis.norm() + field.half_width_mm();
-  return std::hypot(std::abs(axis.x()) + field.half_width_mm(), std::abs(axis.y()) + field.half_height_mm());
-}
-
 [[noreturn]] void refuse(std::string what, std::string why, std::string hint) {
   throw InputError({std::move(what), "rings", std::move(why), std::move(hint)});
 }
@@ -181,6 +174,12 @@ void estimate_all(const RingStore& store, std::span<const double> powers, std::s
 
 }  // namespace
 
+double farthest_radius_mm(const NearField& field) {
+  const Vector2 axis = field.to_plane({0, 0, field.center_mm().z()});
+  if (field.shape() == NearField::Shape::disc) return axis.norm() + field.half_width_mm();
+  return std::hypot(std::abs(axis.x()) + field.half_width_mm(), std::abs(axis.y()) + field.half_height_mm());
+}
+
 double RingsField::kernel_radius_mm() const { return std::sqrt(2 * bandwidth_mm2); }
 
 double RingsField::half_interval(std::size_t index, double level) const {
@@ -224,7 +223,7 @@ struct RingPhotons::Parts {
 
 RingPhotons::RingPhotons(const Scene& scene, const RingsOptions& options) {
   check(scene, options);
-  const double cover_mm = cover_radius_mm(scene.near_field), cover = cover_mm * cover_mm;
+  const double cover_mm = farthest_radius_mm(scene.near_field), cover = cover_mm * cover_mm;
   // Estimates at the field's edge look beyond it; a bandwidth to be chosen is narrower than a quarter.
   const double margin = options.bandwidth_mm2 ? std::min(*options.bandwidth_mm2, cover) : 0.25 * cover;
   const double out_mm = cover_mm + options.widest_kernel_radius_mm;
@@ -280,14 +279,24 @@ std::vector<double> RingPhotons::smoothed(std::span<const double> radii_mm, doub
   return mean;
 }
 
+RingStore::Places RingPhotons::landed(double widest_mm2) const {
+  RingStore::Places all;
+  for (std::size_t set = 0; set < parts_->powers.size(); ++set) {
+    const RingStore::Places places = parts_->store->places(set, widest_mm2);
+    all.squares.insert(all.squares.end(), places.squares.begin(), places.squares.end());
+    all.photons.insert(all.photons.end(), places.photons.begin(), places.photons.end());
+  }
+  return all;
+}
+
 RingsField rings_field(const Scene& scene, std::span<const double> radii_mm, const RingsOptions& options) {
   check(scene, options);
-  check_radii(cover_radius_mm(scene.near_field), radii_mm);  // before any photon flies
+  check_radii(farthest_radius_mm(scene.near_field), radii_mm);  // before any photon flies
   return RingPhotons(scene, options).estimate(radii_mm);
 }
 
 std::vector<double> ring_radii_mm(const NearField& field, std::span<const FieldSample> samples) {
-  const double cover_mm = cover_radius_mm(field);
+  const double cover_mm = farthest_radius_mm(field);
   std::vector<double> radii;
   radii.reserve(samples.size());
   for (const FieldSample& sample : samples)

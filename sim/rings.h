@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/ring_kernel.h"
+#include "sim/ring_store.h"
 #include "sim/scene.h"
 #include "sim/tracer.h"
 
@@ -95,6 +96,10 @@ class RingPhotons {
   /// @in    a radius no wider than widest_kernel_radius_mm of the options
   std::vector<double> smoothed(std::span<const double> radii_mm, double kernel_radius_mm) const;
 
+  /// All photons of all replicates as rings, places at r^2 mm^2, each standing for a range of about that
+  /// width at most.
+  RingStore::Places landed(double widest_mm2) const;
+
   /// Farther from the field's edge no photon was recorded.
   double widest_bandwidth_mm2() const;
   /// What the storage can resolve.
@@ -109,6 +114,9 @@ class RingPhotons {
 
 /// Both in one: photons and their estimate.
 RingsField rings_field(const Scene& scene, std::span<const double> radii_mm, const RingsOptions& options);
+
+/// Distance from the axis of the near field's farthest point, for a plane across the axis.
+double farthest_radius_mm(const NearField& field);
 
 /// Distances of samples from the axis, none beyond the near field by a rounding.
 std::vector<double> ring_radii_mm(const NearField& field, std::span<const FieldSample> samples);
