@@ -93,7 +93,10 @@ bool Search::evaluate_start() {
   for (const Variable& variable : problem_.variables) best_.x.push_back(variable.start);
   best_.value = objective_.compute(best_.x);
   outcome_.start_value = best_.value;
-  if (std::isfinite(best_.value)) return true;
+  if (std::isfinite(best_.value)) {
+    if (best_.value <= options_.reach) end(Ending::target_reached);
+    return true;
+  }
   end(Ending::no_start);
   return false;
 }
@@ -120,6 +123,7 @@ bool Search::improve_from(std::vector<double> x, std::string_view move) {
   previous_ = std::move(best_.x);
   best_ = std::move(*trial);
   ++outcome_.successes;
+  if (best_.value <= options_.reach) end(Ending::target_reached);
   record(move);
   return true;
 }
@@ -202,6 +206,10 @@ std::string Search::sentence() const {
       return "stopped on request";
     case Ending::no_start:
       return "not started: the objective has no finite value at the start";
+    case Ending::target_reached:
+      return fmt::format("reached {:.4g}, at or below the {:.4g} asked for", best_.value, options_.reach);
+    case Ending::failed:
+      break;  // this search cannot
   }
   return {};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "optim/outcome.h"
 #include "optim/problem.h"
@@ -20,6 +21,8 @@ struct HookeJeevesOptions {
                                 ///< ten halvings, as in Table 2 of the paper
   long most_evaluations = 10000;
   long most_iterations = 1000;
+  double reach =
+      -std::numeric_limits<double>::infinity();  ///< an iteration that ends at or below is the last
   PatternAfterFailure pattern_after_failure = PatternAfterFailure::dropped;
   /// Called with the start and after every iteration that improved or reduced; false ends the search with
   /// Ending::stopped.

@@ -9,8 +9,10 @@ enum class Ending {
   converged,         ///< the step fell below its limit
   evaluation_limit,  ///< stopped by the budget
   iteration_limit,
-  stopped,   ///< the caller asked to stop
-  no_start,  ///< the objective has no finite value at the start
+  stopped,         ///< the caller asked to stop
+  no_start,        ///< the objective has no finite value at the start
+  target_reached,  ///< the value asked for, or a better one
+  failed,          ///< the method itself could not go on
 };
 
 /// The state of a search after one of its iterations.
