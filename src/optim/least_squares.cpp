@@ -37,12 +37,15 @@ class Ledger {
   const LastPoint* at(const double* free_values, bool with_jacobian);
   void record(const char* move, double radius);
 
-  /// Leaves free what can move from the best point so far: all that has room, or only what no bound holds.
-  void free_all();
-  void free_off_bounds();
+  bool on_bound() const;  ///< whether the best point has a free variable there
+  /// Takes what the best point has on a bound out of the free variables. False when that was nothing.
+  bool hold_at_bounds();
+  /// Frees what is held although the residuals would fall further inside. False when that is nothing.
+  bool release_pulled_back();
   bool over() const { return ending || failure; }
 
  private:
+  bool at_bound(std::size_t i) const;
   bool may_evaluate();
   void evaluate(bool with_jacobian);
   void keep_best();
@@ -59,19 +62,43 @@ Ledger::Ledger(const LeastSquaresProblem& problem, const LevenbergMarquardtOptio
   last_.x = outcome.best;
   last_.residuals.resize(problem.residual_count);
   last_.jacobian.resize(problem.residual_count * last_.x.size());
-  free_all();
+  for (std::size_t i = 0; i < problem.variables.size(); ++i)
+    if (problem.variables[i].lower < problem.variables[i].upper) free.push_back(i);
 }
 
-void Ledger::free_all() {
-  free.clear();
-  for (std::size_t i = 0; i < problem_.variables.size(); ++i)
-    if (problem_.variables[i].lower < problem_.variables[i].upper) free.push_back(i);
+bool Ledger::at_bound(std::size_t i) const {
+  return outcome.best[i] == problem_.variables[i].lower || outcome.best[i] == problem_.variables[i].upper;
 }
 
-void Ledger::free_off_bounds() {
-  std::erase_if(free, [&](std::size_t i) {
-    return outcome.best[i] == problem_.variables[i].lower || outcome.best[i] == problem_.variables[i].upper;
-  });
+bool Ledger::on_bound() const {
+  return std::ranges::any_of(free, [this](std::size_t i) { return at_bound(i); });
+}
+
+bool Ledger::hold_at_bounds() {
+  return std::erase_if(free, [this](std::size_t i) { return at_bound(i); }) > 0;
+}
+
+bool Ledger::release_pulled_back() {
+  constexpr double least_cosine = 1e-8;  // of residuals and derivatives: rounding, seen from there
+  std::vector<double> values;
+  for (const std::size_t i : free) values.push_back(outcome.best[i]);
+  const LastPoint* point = at(values.data(), true);
+  if (!point) return false;
+  const std::size_t before = free.size(), columns = point->x.size();
+  for (std::size_t i = 0; i < columns; ++i) {
+    const Variable& variable = problem_.variables[i];
+    if (!(variable.lower < variable.upper) || std::ranges::find(free, i) != free.end()) continue;
+    double gradient = 0, square = 0;
+    for (std::size_t row = 0; row < problem_.residual_count; ++row) {
+      const double derivative = point->jacobian[row * columns + i];
+      gradient += derivative * point->residuals[row];
+      square += derivative * derivative;
+    }
+    const double inwards = outcome.best[i] == variable.lower ? -gradient : gradient;
+    if (inwards > least_cosine * std::sqrt(square) * outcome.value) free.push_back(i);
+  }
+  std::ranges::sort(free);
+  return free.size() > before;
 }
 
 bool Ledger::may_evaluate() {
@@ -176,7 +203,8 @@ class Watcher : public ceres::IterationCallback {
     } catch (...) {
       ledger_.failure = std::current_exception();
     }
-    return ledger_.over() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+    const bool round_over = summary.step_is_successful && !begins && ledger_.on_bound();
+    return ledger_.over() || round_over ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
   }
 
  private:
@@ -198,7 +226,7 @@ ceres::Solver::Options solver_options(const LevenbergMarquardtOptions& options) 
 }
 
 std::string sentence(const Outcome& outcome, const LevenbergMarquardtOptions& options,
-                     const std::string& by_ceres) {
+                     const std::string& by_ceres, bool all_held) {
   switch (outcome.ending) {
     case Ending::evaluation_limit:
       return fmt::format("stopped by the limit of {} evaluations", options.most_evaluations);
@@ -211,7 +239,7 @@ std::string sentence(const Outcome& outcome, const LevenbergMarquardtOptions& op
     case Ending::no_start:
       return "not started: the residuals have no finite value at the start";
     case Ending::converged:
-      return "converged: " + by_ceres;
+      return all_held ? "converged: every variable is held by a bound" : "converged: " + by_ceres;
     case Ending::failed:
       return "gave up: " + by_ceres;
   }
@@ -221,7 +249,7 @@ std::string sentence(const Outcome& outcome, const LevenbergMarquardtOptions& op
 Ending ending_of(const Ledger& ledger, const ceres::Solver::Summary& summary) {
   if (ledger.ending) return *ledger.ending;
   if (ledger.outcome.value == infinity) return Ending::no_start;
-  if (summary.termination_type == ceres::CONVERGENCE) return Ending::converged;
+  if (ledger.free.empty() || summary.termination_type == ceres::CONVERGENCE) return Ending::converged;
   if (summary.termination_type == ceres::NO_CONVERGENCE) return Ending::iteration_limit;
   return Ending::failed;
 }
@@ -260,22 +288,22 @@ ceres::Solver::Summary solve(Ledger& ledger, const LeastSquaresProblem& problem,
   return summary;
 }
 
-/// Ceres cuts a step off at the bounds, which leaves what other variables should do then undone. So what has
-/// come to a bound is held there while the rest goes on, then set free again, until that gains nothing more.
+/// Ceres cuts a step off at the bounds and leaves what the other variables should do then undone. So what
+/// comes to a bound is held there while the rest goes on, until the residuals pull it back: an active set.
 ceres::Solver::Summary solve_in_rounds(Ledger& ledger, const LeastSquaresProblem& problem,
                                        const LevenbergMarquardtOptions& options) {
-  constexpr double worth_a_round = 1e-6;  // relative gain; a round costs some evaluations
-  ceres::Solver::Summary summary = solve(ledger, problem, options);
-  while (!ledger.over() && ledger.outcome.iterations < options.most_iterations) {
-    const double before = ledger.outcome.value;
-    const std::size_t all = ledger.free.size();
-    ledger.free_off_bounds();
-    if (ledger.free.empty() || ledger.free.size() == all) break;
-    summary = solve(ledger, problem, options);
-    ledger.free_all();
-    if (ledger.over() || !(ledger.outcome.value < (1 - worth_a_round) * before)) break;
-    if (ledger.outcome.iterations < options.most_iterations) summary = solve(ledger, problem, options);
+  ceres::Solver::Summary summary;
+  double at_release = infinity;
+  while (true) {
+    if (!ledger.free.empty()) summary = solve(ledger, problem, options);
+    if (ledger.over() || ledger.outcome.value == infinity) return summary;
+    if (ledger.outcome.iterations >= options.most_iterations) break;
+    if (ledger.hold_at_bounds()) continue;
+    if (!(ledger.outcome.value < (1 - options.value_tolerance) * at_release)) return summary;
+    at_release = ledger.outcome.value;
+    if (!ledger.release_pulled_back()) return summary;
   }
+  ledger.ending = Ending::iteration_limit;
   return summary;
 }
 
@@ -285,18 +313,12 @@ Outcome levenberg_marquardt(const LeastSquaresProblem& problem, const LevenbergM
   require_sound(problem);
   silence_ceres();
   Ledger ledger(problem, options);
-  ceres::Solver::Summary summary;
-  if (ledger.free.empty()) {
-    ledger.at(nullptr, false);
-    if (ledger.outcome.value < infinity && !ledger.ending) ledger.ending = Ending::converged;
-    summary.message = "no variable can move";
-  } else {
-    summary = solve_in_rounds(ledger, problem, options);
-  }
+  if (ledger.free.empty()) ledger.at(nullptr, false);  // nothing can move: one value is the outcome
+  const ceres::Solver::Summary summary = solve_in_rounds(ledger, problem, options);
   if (ledger.failure) std::rethrow_exception(ledger.failure);
   Outcome outcome = std::move(ledger.outcome);
   outcome.ending = ending_of(ledger, summary);
-  outcome.sentence = sentence(outcome, options, summary.message);
+  outcome.sentence = sentence(outcome, options, summary.message, ledger.free.empty());
   return outcome;
 }
 
