@@ -68,11 +68,15 @@ Handle(Geom_BSplineCurve) occt_curve(const Profile& profile, double scale) {
   });
 }
 
+void clamp(const Handle(Geom_BSplineCurve) & curve) {
+  if (curve->Multiplicity(1) <= curve->Degree() || curve->Multiplicity(curve->NbKnots()) <= curve->Degree())
+    curve->Segment(curve->FirstParameter(), curve->LastParameter());
+}
+
 Handle(Geom_BSplineCurve) occt_cad_curve(const Profile& profile, double scale) {
   Handle(Geom_BSplineCurve) curve = occt_curve(profile, scale);
   return guarded("set the generatrix on the axis", "", [&] {
-    if (curve->Multiplicity(1) <= curve->Degree() || curve->Multiplicity(curve->NbKnots()) <= curve->Degree())
-      curve->Segment(curve->FirstParameter(), curve->LastParameter());
+    clamp(curve);
     for (const auto& [index, end] :
          {std::pair{1, curve->StartPoint()}, std::pair{curve->NbPoles(), curve->EndPoint()}}) {
       const gp_Pnt pole = curve->Pole(index);

@@ -11,6 +11,11 @@ namespace catoptric::cad::detail {
 /// @fails CadError when OCCT refuses the numbers (two knots nearer than a rounding)
 Handle(Geom_BSplineCurve) occt_curve(const Profile& profile, double scale = 1.0);
 
+/// Repeats the end knots degree + 1 times where they are not, so that the curve begins and ends at control
+/// points.
+/// @fails Standard_Failure: to be called under the guard
+void clamp(const Handle(Geom_BSplineCurve) & curve);
+
 /// The same curve as CAD programs want it: clamped (they cut other knots off at the ends), and an end that
 /// lies within OCCT's confusion (1e-7 model units) of the axis set on it, where a tiny circle would stay
 /// open.
