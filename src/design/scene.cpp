@@ -9,6 +9,7 @@
 
 #include "base/tolerance.h"
 #include "design/scene_defaults.h"
+#include "design/target_settings.h"
 #include "design/variables.h"
 
 namespace catoptric::design {
@@ -80,21 +81,11 @@ void check_paraboloid(const Settings& settings, const SourceSpec& source, const 
                          "target.kind = \"reflector\" with the paraboloid's control points");
 }
 
-TargetSpec target(const Settings& settings, double unit_mm) {
-  TargetSpec spec{};
-  const std::string kind = *settings.text("target.kind");
-  if (kind == "paraboloid") {
-    spec.kind = TargetKind::paraboloid;
-    spec.focal_length_mm = *settings.number("target.focal_length") * unit_mm;
-    spec.rim_radius_mm = *settings.number("target.rim_radius") * unit_mm;
-  } else if (kind == "reflector") {
-    spec.kind = TargetKind::reflector;
-    spec.reference = profile(settings, "target", unit_mm);
-  } else if (kind == "csv") {
-    spec.kind = TargetKind::csv;
-    spec.file = *settings.text("target.file");
-    spec.column = *settings.text("target.column");
-  }
+TargetSpec target(const Settings& settings, double unit_mm, const sim::NearField& field) {
+  std::optional<Profile> reference;
+  if (settings.text("target.kind") == "reflector") reference = profile(settings, "target", unit_mm);
+  TargetSpec spec = target_spec(settings, unit_mm, std::move(reference));
+  check_across_axis(settings, spec, field);
   return spec;
 }
 
@@ -257,7 +248,7 @@ Scene make_scene(Settings settings) {
   const SourceSpec source{vector(settings, "source.position", unit_mm), *settings.number("source.power")};
   Profile base = profile(settings, "reflector", unit_mm);
   sim::NearField field = near_field(settings, unit_mm);
-  TargetSpec desired = target(settings, unit_mm);
+  TargetSpec desired = target(settings, unit_mm, field);
   if (desired.kind == TargetKind::paraboloid) check_paraboloid(settings, source, field);
   std::vector<optim::Variable> decision = variables(settings, base, unit);
   std::optional<LandscapeSpec> drawn = landscape(settings, base);

@@ -23,7 +23,8 @@ struct SourceSpec {
   double power_w;
 };
 
-enum class TargetKind { none, paraboloid, reflector, csv };
+/// uniform and ring are zones: one, and two.
+enum class TargetKind { none, paraboloid, reflector, csv, zones, gaussian, radial };
 
 /// Where the desired irradiance comes from.
 struct TargetSpec {
@@ -32,7 +33,13 @@ struct TargetSpec {
   double rim_radius_mm = 0;
   std::optional<Profile> reference;
   std::filesystem::path file;
-  std::string column;
+  std::string column, weight_column;
+  std::vector<double> radii_mm, irradiances_w_per_mm2;  ///< zones: outer radii; radial: the table
+  std::vector<double> table_weights;                    ///< radial: of the table's radii; empty: all alike
+  std::vector<double> zone_weights;  ///< zones, and one for what lies beyond; empty: all alike
+  double peak_w_per_mm2 = 0, sigma_mm = 0;
+  double reach_mm = 0;      ///< zones, gaussian, radial: nothing is wanted beyond
+  bool free_scale = false;  ///< only the shape is wanted: its level is the program's to choose
 };
 
 enum class Engine { meridian, occt, mesh };

@@ -7,6 +7,7 @@
 
 #include "base/profile.h"
 #include "cad/profile_import.h"
+#include "design/target_settings.h"
 
 namespace catoptric::design {
 namespace {
@@ -116,7 +117,7 @@ void complete_near_field(Settings& settings) {
   }
 }
 
-void complete_target(Settings& settings) {
+void complete_reference(Settings& settings) {
   const std::string kind = *settings.text("target.kind");
   if (kind == "paraboloid") {
     const auto a = settings.number("target.focal_length");
@@ -126,15 +127,6 @@ void complete_target(Settings& settings) {
     fill(settings, "target.rim_radius", fmt::format("{}", 2 * *a));
   }
   if (kind == "reflector") complete_spline(settings, "target");
-  if (kind == "csv") {
-    const auto file = settings.text("target.file");
-    if (!file)
-      throw settings.error("target.file", "is missing", "a csv target needs it",
-                           "target.file = \"target.csv\"");
-    fill(settings, "target.column", "\"irradiance\"");
-    const auto absolute = std::filesystem::absolute(settings.folder() / *file).lexically_normal();
-    settings.set({"target.file", "'" + absolute.string() + "'", settings.where("target.file")});
-  }
 }
 
 void complete_bandwidth(Settings& settings) {
@@ -167,6 +159,7 @@ std::vector<std::string> complete(Settings& settings) {
   else if (settings.has("reflector.wall_side"))
     throw settings.error("reflector.wall_side", "stands alone", "there is no wall", "reflector.wall = 1.0");
   complete_near_field(settings);
+  complete_reference(settings);
   complete_target(settings);
   complete_bandwidth(settings);
   return notes;

@@ -7,6 +7,7 @@
 #include "base/tolerance.h"
 #include "design/csv_table.h"
 #include "design/evaluator.h"
+#include "design/radial_target.h"
 #include "design/stage.h"
 #include "sim/accuracy.h"
 
@@ -17,16 +18,12 @@ namespace {
 constexpr std::uint64_t first_reference_stream = std::uint64_t{1} << 32;
 constexpr std::uint64_t reference_replicates = 16;
 
-Target from_paraboloid(const Scene& scene) {
+Target from_radius(const Scene& scene) {
   Target target{scene.near_field.samples(scene.samples), {}};
-  const double height_mm = std::abs(scene.source.position_mm.z() - scene.near_field.center_mm().z());
-  for (const sim::FieldSample& sample : target.samples) {
-    const double distance_mm = std::hypot(sample.point_mm.x(), sample.point_mm.y());
+  const RadialTarget wanted = *radial_target(scene);
+  for (const sim::FieldSample& sample : target.samples)
     target.irradiance_w_per_mm2.push_back(
-        paraboloid_reflected_w_per_mm2(scene.source.power_w, scene.target.focal_length_mm,
-                                       scene.target.rim_radius_mm, distance_mm) +
-        paraboloid_direct_w_per_mm2(scene.source.power_w, height_mm, distance_mm));
-  }
+        wanted.total_w_per_mm2(std::hypot(sample.point_mm.x(), sample.point_mm.y())));
   return target;
 }
 
@@ -108,7 +105,10 @@ double paraboloid_direct_w_per_mm2(double power_w, double height_mm, double dist
 Target make_target(const Scene& scene) {
   switch (scene.target.kind) {
     case TargetKind::paraboloid:
-      return from_paraboloid(scene);
+    case TargetKind::zones:
+    case TargetKind::gaussian:
+    case TargetKind::radial:
+      return from_radius(scene);
     case TargetKind::reflector:
       return from_reference(scene);
     case TargetKind::csv:
