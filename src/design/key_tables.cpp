@@ -20,6 +20,15 @@ const std::vector<Key>& scene_table() {
 
       {.path = "accuracy", .type = number, .least = 0, .greatest = 1, .least_excluded = true, .meaning = "relative root mean square error allowed in every reported field, with 95 % probability; the program then finds rung, photons and bandwidth itself and says what it spent"},
 
+      {.path = "start", .type = choice, .choices = {"profile", "tailored"}, .standard = "\"profile\"", .meaning = "where a mirror begins: as written, or tailored to the target by flux balance and ray directions, with no search of light. Listed variables are tailored from their starts; without reflector.points the whole mirror comes from source, target and package"},
+      {.path = "tailored.map", .type = choice, .choices = {"auto", "diverging", "crossing"}, .standard = "\"auto\"", .meaning = "whether each half's light stays on its side of the axis or crosses it; auto takes what comes nearer to the target"},
+      {.path = "tailored.vertex", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "distance of the mirror's apex from the source; the largest that the package allows when left out"},
+      {.path = "tailored.package_radius", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "radius that a mirror made from nothing stays within"},
+      {.path = "tailored.package_height", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "height that it stays within"},
+      {.path = "tailored.rim_angle", .type = number, .least = 1, .greatest = 179, .standard = "90.0", .meaning = "target.scale = \"free\": how much of the source's light the mirror takes, as the rim's angle at the source from the apex, degrees"},
+      {.path = "tailored.degree", .type = integer, .least = 2, .greatest = 9, .standard = "3", .meaning = "degree of a generatrix made from nothing"},
+      {.path = "tailored.points", .type = integer, .least = 3, .greatest = 64, .standard = "10", .meaning = "its control points"},
+
       {.path = "source.kind", .type = choice, .choices = {"point"}, .standard = "\"point\"", .meaning = "a point that radiates alike in all directions"},
       {.path = "source.position", .type = numbers, .quantity = Q::length, .least = -far, .greatest = far, .count = 3, .standard = "[0.0, 0.0, 0.0]", .meaning = "x, y, z of the source"},
       {.path = "source.power", .type = number, .quantity = Q::power_w, .least = 0, .greatest = 1e12, .least_excluded = true, .meaning = "radiant power of the source, W"},
@@ -72,6 +81,7 @@ const std::vector<Key>& scene_table() {
       {.path = "target.fwhm", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "gaussian: its full width at half maximum, instead of sigma"},
       {.path = "target.scale", .type = choice, .choices = {"absolute", "free"}, .meaning = "free: only the target's shape is wanted, and its level is the program's to choose; absolute when left out"},
       {.path = "target.zone_weights", .type = numbers, .least = 0, .greatest = 1e12, .meaning = "uniform, ring, zones: how much a sample counts in each zone from the axis outwards, and beyond the last; all 1 when left out"},
+      {.path = "target.level", .type = number, .least = 0, .greatest = 1e15, .least_excluded = true, .meaning = "factor on the target's irradiance; what target.scale = \"free\" found"},
       {.path = "target.weight_column", .type = text, .meaning = "csv, radial: name of the column that says how much a point counts; all 1 when left out"},
 
       {.path = "model.rung", .type = choice, .choices = {"auto", "tubes", "rings", "photons"}, .standard = "\"auto\"", .meaning = "how light is computed: ray tubes without noise, photons folded about the axis, or photons in space; auto takes the first of these that is valid. The verdict on a design is by photons in any case"},

@@ -8,7 +8,9 @@
 #include <cmath>
 
 #include "base/tolerance.h"
+#include "base/units.h"
 #include "design/scene_defaults.h"
+#include "design/tailored_settings.h"
 #include "design/target_settings.h"
 #include "design/variables.h"
 
@@ -228,21 +230,20 @@ cad::ExportOptions export_options(const Settings& settings, double unit_mm) {
   return options;
 }
 
-}  // namespace
-
-std::string_view name(Engine engine) {
-  return engine == Engine::occt ? "occt" : engine == Engine::mesh ? "mesh" : "meridian";
+TailoredSpec tailored(const Settings& settings, double unit_mm) {
+  TailoredSpec spec{};
+  const std::string map = *settings.text("tailored.map");
+  if (map != "auto") spec.map = map == "crossing" ? RayMap::crossing : RayMap::diverging;
+  if (const auto vertex = settings.number("tailored.vertex")) spec.vertex_mm = *vertex * unit_mm;
+  spec.package_radius_mm = settings.number("tailored.package_radius").value_or(HUGE_VAL) * unit_mm;
+  spec.package_height_mm = settings.number("tailored.package_height").value_or(HUGE_VAL) * unit_mm;
+  spec.rim_angle_rad = *settings.number("tailored.rim_angle") * pi / 180;
+  spec.degree = static_cast<int>(*settings.integer("tailored.degree"));
+  spec.points = static_cast<std::size_t>(*settings.integer("tailored.points"));
+  return spec;
 }
-std::string_view name(Metric metric) { return metric == Metric::rmse ? "rmse" : "relative-rmse"; }
 
-Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  Settings settings = Settings::read(file, scene_keys());
-  for (const Override& change : overrides) settings.set(change);
-  return make_scene(std::move(settings));
-}
-
-Scene make_scene(Settings settings) {
-  std::vector<std::string> notes = complete(settings);
+Scene build_scene(Settings settings, std::vector<std::string> notes) {
   const LengthUnit unit = scene_unit(settings);
   const double unit_mm = millimetres_per(unit);
   const SourceSpec source{vector(settings, "source.position", unit_mm), *settings.number("source.power")};
@@ -266,6 +267,7 @@ Scene make_scene(Settings settings) {
               .near_field = std::move(field),
               .samples = static_cast<std::size_t>(*settings.integer("near_field.samples")),
               .target = std::move(desired),
+              .tailored = tailored(settings, unit_mm),
               .model = model(settings, unit_mm),
               .search = search(settings),
               .variables = std::move(decision),
@@ -274,6 +276,29 @@ Scene make_scene(Settings settings) {
               .export_options = export_options(settings, unit_mm)};
   scene.settings = std::move(settings);
   return scene;
+}
+
+}  // namespace
+
+std::string_view name(Engine engine) {
+  return engine == Engine::occt ? "occt" : engine == Engine::mesh ? "mesh" : "meridian";
+}
+std::string_view name(Metric metric) { return metric == Metric::rmse ? "rmse" : "relative-rmse"; }
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  Settings settings = Settings::read(file, scene_keys());
+  for (const Override& change : overrides) settings.set(change);
+  return make_scene(std::move(settings));
+}
+
+Scene make_scene(Settings settings) {
+  const bool from_nothing = !settings.has("reflector.points") && !settings.has("reflector.profile");
+  std::vector<std::string> notes = complete(settings);
+  Scene scene = build_scene(std::move(settings), std::move(notes));
+  if (scene.settings.text("start") != "tailored") return scene;
+  notes = scene.profile_notes;
+  Settings tailored = tailored_settings(scene, from_nothing, notes);
+  return build_scene(std::move(tailored), std::move(notes));
 }
 
 }  // namespace catoptric::design

@@ -11,6 +11,7 @@
 #include "cad/engines.h"
 #include "cad/export.h"
 #include "design/settings.h"
+#include "design/tailored_curve.h"
 #include "optim/problem.h"
 #include "sim/near_field.h"
 #include "sim/planner.h"
@@ -82,6 +83,16 @@ struct TradeoffSpec {
   double reference_accuracy_rel;
 };
 
+/// What a mirror made by `start = "tailored"` is like.
+struct TailoredSpec {
+  std::optional<RayMap> map;  ///< nothing: the better one
+  std::optional<double> vertex_mm;
+  double package_radius_mm, package_height_mm;  ///< infinite where not given
+  double rim_angle_rad;
+  int degree;
+  std::size_t points;
+};
+
 /// A scene, checked, in mm, W and rad; variables keep the scene's unit, which is what people read and write.
 struct Scene {
   Settings settings;  ///< every key with its value, defaults included: what scene.toml holds
@@ -97,6 +108,7 @@ struct Scene {
   sim::NearField near_field;
   std::size_t samples;
   TargetSpec target;
+  TailoredSpec tailored;
   ModelSpec model;
   SearchSpec search;
   std::vector<optim::Variable> variables;  ///< lengths in the scene's unit

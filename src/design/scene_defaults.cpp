@@ -48,18 +48,10 @@ std::vector<std::string> resolve_profile_file(Settings& settings) {
   const double turn = settings.boolean("reflector.profile_upside_down").value_or(false) ? -1.0 : 1.0;
   const double file_apex = turn * imported.profile.points().front().z_mm / unit_mm;
   const double shift = settings.number("reflector.profile_apex").value_or(file_apex) - file_apex;
-  std::string points = "[";
-  std::vector<double> weights;
-  for (const ControlPoint& point : imported.profile.points()) {
-    points += fmt::format("{}[{}, {}]", points.size() > 1 ? ", " : "", point.r_mm / unit_mm,
-                          turn * point.z_mm / unit_mm + shift);
-    weights.push_back(point.weight);
-  }
-  const std::string where = settings.where("reflector.profile");
-  settings.set({"reflector.points", points + "]", where});
-  settings.set({"reflector.degree", fmt::format("{}", imported.profile.degree()), where});
-  put(settings, "reflector.weights", weights, where);
-  put(settings, "reflector.knots", imported.profile.knots(), where);
+  std::vector<ControlPoint> control = imported.profile.points();
+  for (ControlPoint& point : control) point.z_mm = turn * point.z_mm + shift * unit_mm;
+  put_profile(settings, Profile(imported.profile.degree(), imported.profile.knots(), std::move(control)),
+              settings.where("reflector.profile"));
   for (const char* used : {"reflector.profile", "reflector.profile_index", "reflector.profile_axis",
                            "reflector.profile_apex", "reflector.profile_upside_down"})
     settings.remove(used);
@@ -141,7 +133,53 @@ void complete_bandwidth(Settings& settings) {
   fill(settings, "model.kernel_radius", fmt::format("{}", 0.1 * half_width));
 }
 
+/// A mirror that is to be made from nothing stands in as a bowl of the right number of points until then.
+void complete_start(Settings& settings) {
+  const bool tailored = settings.text("start") == "tailored";
+  if (!tailored || settings.has("reflector.points")) {
+    for (const char* key : {"tailored.vertex", "tailored.package_radius", "tailored.package_height"})
+      if (settings.has(key))
+        throw settings.error(key, "has no effect",
+                             tailored ? "the reflector is written out" : "start is not \"tailored\"",
+                             "remove it, or let the mirror be made from nothing");
+    return;
+  }
+  for (const char* key : {"reflector.degree", "reflector.weights", "reflector.knots"})
+    if (settings.has(key))
+      throw settings.error(key, "stands alone", "a mirror made from nothing has its own",
+                           "tailored.degree and tailored.points");
+  if (!settings.has("tailored.vertex") && !settings.has("tailored.package_radius") &&
+      !settings.has("tailored.package_height"))
+    throw settings.error("tailored.vertex", "is missing", "a mirror made from nothing needs its size",
+                         "tailored.package_radius, tailored.package_height or tailored.vertex");
+  const auto degree = *settings.integer("tailored.degree"), count = *settings.integer("tailored.points");
+  if (count <= degree)
+    throw settings.error("tailored.points", fmt::format("{} are too few for degree {}", count, degree),
+                         "a B-spline has more control points than its degree",
+                         fmt::format("tailored.points = {}", degree + 1));
+  std::string points = "[[0, 1]";
+  for (std::int64_t i = 1; i < count; ++i)
+    points += fmt::format(", [{}, 1]", static_cast<double>(i) / static_cast<double>(count));
+  settings.set({"reflector.points", points + "]", "default"});
+  settings.set({"reflector.degree", fmt::format("{}", degree), "default"});
+}
+
 }  // namespace
+
+void put_profile(Settings& settings, const Profile& profile, const std::string& where) {
+  const double unit_mm = millimetres_per(scene_unit(settings));
+  std::string points = "[";
+  std::vector<double> weights;
+  for (const ControlPoint& point : profile.points()) {
+    points +=
+        fmt::format("{}[{}, {}]", points.size() > 1 ? ", " : "", point.r_mm / unit_mm, point.z_mm / unit_mm);
+    weights.push_back(point.weight);
+  }
+  settings.set({"reflector.points", points + "]", where});
+  settings.set({"reflector.degree", fmt::format("{}", profile.degree()), where});
+  put(settings, "reflector.weights", weights, where);
+  put(settings, "reflector.knots", profile.knots(), where);
+}
 
 LengthUnit scene_unit(const Settings& settings) {
   return parse_length_unit(settings.text("unit").value_or("mm")).value_or(LengthUnit::millimetre);
@@ -153,6 +191,7 @@ std::vector<std::string> complete(Settings& settings) {
   if (!settings.has("source.power"))
     throw settings.error("source.power", "is missing", "a source needs its power in W", "source.power = 1.0");
   std::vector<std::string> notes = resolve_profile_file(settings);
+  complete_start(settings);
   complete_spline(settings, "reflector");
   if (settings.has("reflector.wall"))
     fill(settings, "reflector.wall_side", "\"outside\"");

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/profile.h"
 #include "base/units.h"
 #include "design/settings.h"
 
@@ -10,6 +11,10 @@ namespace catoptric::design {
 
 /// The scene's unit, mm when it names none.
 LengthUnit scene_unit(const Settings& settings);
+
+/// Writes the profile into the reflector's keys, in the scene's unit.
+/// @in where: what a message about these keys names as their place
+void put_profile(Settings& settings, const Profile& profile, const std::string& where);
 
 /// Writes into `settings` what the scene left out, so that what follows needs no default of its own and
 /// scene.toml is complete. A profile file is read here and replaced by its control points.

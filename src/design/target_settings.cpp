@@ -20,19 +20,19 @@ struct Kind {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> table{
-      {"uniform", {"radius", "irradiance"}, {"zone_weights"}},
-      {"ring", {"inner_radius", "outer_radius", "irradiance"}, {"background", "zone_weights"}},
-      {"zones", {"radii", "irradiances"}, {"zone_weights"}},
-      {"gaussian", {"peak"}, {"sigma", "fwhm", "radius"}},
-      {"radial", {"file"}, {"column", "weight_column"}},
+      {"uniform", {"radius", "irradiance"}, {"zone_weights", "level"}},
+      {"ring", {"inner_radius", "outer_radius", "irradiance"}, {"background", "zone_weights", "level"}},
+      {"zones", {"radii", "irradiances"}, {"zone_weights", "level"}},
+      {"gaussian", {"peak"}, {"sigma", "fwhm", "radius", "level"}},
+      {"radial", {"file"}, {"column", "weight_column", "level"}},
       {"csv", {"file"}, {"column", "weight_column"}},
   };
   return table;
 }
 
-constexpr std::array<std::string_view, 13> own_keys{
-    "radius", "irradiance", "inner_radius", "outer_radius", "background",    "radii",       "irradiances",
-    "peak",   "sigma",      "fwhm",         "scale",        "weight_column", "zone_weights"};
+constexpr std::array<std::string_view, 14> own_keys{
+    "radius", "irradiance", "inner_radius", "outer_radius", "background",    "radii",        "irradiances",
+    "peak",   "sigma",      "fwhm",         "scale",        "weight_column", "zone_weights", "level"};
 
 bool holds(std::span<const std::string_view> list, std::string_view item) {
   return std::find(list.begin(), list.end(), item) != list.end();
@@ -176,6 +176,9 @@ TargetSpec target_spec(const Settings& settings, double unit_mm, std::optional<P
     spec.kind = TargetKind::zones;
     read_zones(settings, kind, unit_mm, spec);
   }
+  const double level = settings.number("target.level").value_or(1.0);
+  for (double& each : spec.irradiances_w_per_mm2) each *= level;
+  spec.peak_w_per_mm2 *= level;
   return spec;
 }
 

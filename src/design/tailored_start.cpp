@@ -1,0 +1,257 @@
+#include "design/tailored_start.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <variant>
+
+#include "base/units.h"
+#include "design/free_profile.h"
+#include "design/profile_fit.h"
+#include "design/tailoring.h"
+#include "design/tailoring_task.h"
+#include "design/variables.h"
+#include "sim/tubes.h"
+
+namespace catoptric::design {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+ProfileVariables free_variables(std::shared_ptr<const FreeProfile> family) {
+  return {family->variables(), [family](std::span<const double> x) { return family->at(x); },
+          [family](const Profile& profile) { return family->chain(profile); }};
+}
+
+/// The scene's listed variables; weights by their logarithms, lengths in mm.
+ProfileVariables listed_variables(const Scene& scene) {
+  const double unit_mm = millimetres_per(scene.unit);
+  std::vector<std::string> names;
+  std::vector<Component> components;
+  ProfileVariables family;
+  for (optim::Variable variable : scene.variables) {
+    names.push_back(variable.name);
+    components.push_back(*parse_component(variable.name, scene.profile.points().size()));
+    const bool weight = components.back().coordinate == 'w';
+    for (double* each : {&variable.start, &variable.lower, &variable.upper})
+      *each = weight ? std::log(*each) : *each * unit_mm;
+    family.variables.push_back(variable);
+  }
+  const auto profiles = std::make_shared<ProfileFamily>(scene.profile, names, LengthUnit::millimetre);
+  family.at = [profiles, components](std::span<const double> x) {
+    std::vector<double> values(x.begin(), x.end());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (components[i].coordinate == 'w') values[i] = std::exp(values[i]);
+    return profiles->at(values);
+  };
+  family.chain = [components](const Profile& profile) {
+    Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * profile.points().size()),
+                                                  static_cast<Eigen::Index>(components.size()));
+    for (std::size_t i = 0; i < components.size(); ++i) {
+      const auto place = static_cast<Eigen::Index>(3 * components[i].point +
+                                                   std::string_view("rzw").find(components[i].coordinate));
+      chain(place, static_cast<Eigen::Index>(i)) =
+          components[i].coordinate == 'w' ? profile.points()[components[i].point].weight : 1.0;
+    }
+    return chain;
+  };
+  return family;
+}
+
+/// How far the light of a mirror is from what is wanted of it, relative, by ray tubes at radii away from
+/// jumps.
+double light_error_rel(const Scene& scene, const TailoringTask& task, const Profile& profile) {
+  constexpr int count = 64;
+  constexpr double margin = 0.02;  // of the reach, about a jump
+  std::vector<double> radii;
+  for (int i = 0; i < count; ++i) {
+    const double radius_mm = task.wanted.end_mm * std::sqrt((i + 0.5) / count);
+    const bool near_jump = std::ranges::any_of(task.wanted.breaks_mm, [&](double jump_mm) {
+      return std::abs(radius_mm - jump_mm) < margin * task.wanted.end_mm;
+    });
+    if (!near_jump) radii.push_back(radius_mm);
+  }
+  double square = 0, wanted_square = 0, peak = 0;
+  for (const double radius_mm : radii) peak = std::max(peak, task.wanted.w_per_mm2(radius_mm));
+  sim::TubesOptions options;
+  options.pointwise_tolerance_w_per_mm2 = 1e-4 * peak;
+  const sim::PointSource source(scene.source.position_mm, scene.source.power_w);
+  const sim::FieldPlane plane{task.layout.field_z_mm, scene.near_field.normal().z() > 0};
+  const sim::TubesField field = sim::tubes_field(source, profile, scene.mirror, plane, radii, options);
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    const double wanted = std::max(0.0, task.wanted.w_per_mm2(radii[i]));
+    // A caustic counts as a ten times too bright place, not as infinitely wrong.
+    const double off = std::min(field.irradiance[i], 10 * peak) - wanted;
+    square += off * off;
+    wanted_square += wanted * wanted;
+  }
+  return std::sqrt(square / wanted_square);
+}
+
+/// A mirror made from nothing, by one of the ray maps.
+class FromNothing {
+ public:
+  FromNothing(const Scene& scene, const TailoringTask& task) : scene_(scene), task_(task) {}
+
+  struct Made {
+    Tailored tailored;
+    RayMap kind;
+    double light_error_rel;
+  };
+
+  /// A sentence where this map makes no mirror.
+  std::variant<Made, std::string> make(RayMap kind) const {
+    const auto vertex = apex_distance_mm(kind);
+    if (const auto* why = std::get_if<std::string>(&vertex)) return *why;
+    const int degree = scene_.tailored.degree;
+    const std::size_t points = scene_.tailored.points;
+    const auto curve = curve_from(kind, std::get<double>(vertex), 20 * points);
+    if (const auto* why = std::get_if<std::string>(&curve)) return *why;
+    std::vector<double> breaks = task_.map.break_angles_rad();
+    for (double& each : breaks) each /= task_.map.last_angle_rad();
+    const std::vector<double> knots = knots_with_breaks(degree, points, breaks);
+    auto control = fit_control_points(std::get<0>(curve), degree, knots);
+    control[0].z_mm = control[1].z_mm = std::get<0>(curve).front().z_mm;
+    if (const auto defect = Profile::find_defect(degree, knots, control)) return defect->what;
+    FreeProfileOptions options;
+    options.hold_vertex = true;
+    const ProfileVariables family =
+        free_variables(std::make_shared<FreeProfile>(Profile(degree, knots, control), options));
+    TailoringOptions search;
+    search.most_restarts = 0;  // the fit is where a search should begin
+    search.value_tolerance = 1e-4;
+    Made made{tailor(task_.map, task_.layout, kind, family, search), kind, 0};
+    made.light_error_rel = light_error_rel(scene_, task_, made.tailored.profile);
+    return made;
+  }
+
+ private:
+  std::variant<std::vector<CurvePoint>, std::string> curve_from(RayMap kind, double apex_mm,
+                                                                std::size_t points) const {
+    std::vector<double> angles;
+    for (std::size_t i = 1; i <= points; ++i)
+      angles.push_back(task_.map.last_angle_rad() * static_cast<double>(i) / static_cast<double>(points));
+    return tailored_curve(task_.map, task_.layout, kind, apex_mm, angles);
+  }
+
+  /// As wished, or as large as the package allows: a larger mirror makes the same light, and less of a source
+  /// that is no point shows in it.
+  std::variant<double, std::string> apex_distance_mm(RayMap kind) const {
+    const TailoredSpec& spec = scene_.tailored;
+    if (spec.vertex_mm) return *spec.vertex_mm;
+    const auto fits = [&](double apex_mm) {
+      const auto curve = curve_from(kind, apex_mm, 40);
+      if (!std::holds_alternative<std::vector<CurvePoint>>(curve)) return false;
+      double r_most = 0, z_least = HUGE_VAL, z_most = -HUGE_VAL;
+      for (const CurvePoint& point : std::get<0>(curve)) {
+        r_most = std::max(r_most, point.r_mm);
+        z_least = std::min(z_least, point.z_mm);
+        z_most = std::max(z_most, point.z_mm);
+      }
+      // The spline goes beside the curve by less than this share.
+      constexpr double room = 1 - 1e-4;
+      return r_most <= room * spec.package_radius_mm && z_most - z_least <= room * spec.package_height_mm;
+    };
+    // The package's own size is more than any mirror in it needs; below a ten thousandth there is none.
+    double most = std::min(spec.package_radius_mm, spec.package_height_mm), least = 1e-4 * most;
+    if (fits(most)) return most;
+    if (!fits(least))
+      return fmt::format("no mirror of this kind fits a package of radius {:.4g} and height {:.4g} {}",
+                         scene_.to_scene_unit(spec.package_radius_mm),
+                         scene_.to_scene_unit(spec.package_height_mm), symbol(scene_.unit));
+    for (int i = 0; i < 40; ++i) {
+      const double middle = std::sqrt(least * most);
+      (fits(middle) ? least : most) = middle;
+    }
+    return least;
+  }
+
+  const Scene& scene_;
+  const TailoringTask& task_;
+};
+
+std::string miss_in_words(const Tailored& tailored, RayMap kind) {
+  return fmt::format(
+      "tailored by the {} ray map: rays miss their places by {:.2g} rad, {} evaluations from {} {}",
+      name(kind), tailored.miss_rad, tailored.evaluations, tailored.starts,
+      tailored.starts == 1 ? "start" : "starts");
+}
+
+TailoredStart result(TailoringTask task, Tailored tailored, RayMap kind, Clock::time_point begin) {
+  TailoredStart start{std::move(tailored.profile),
+                      kind,
+                      tailored.miss_rad,
+                      task.map.last_angle_rad(),
+                      task.level,
+                      task.unreachable_rel,
+                      tailored.evaluations,
+                      tailored.starts,
+                      0,
+                      std::move(task.notes)};
+  start.notes.push_back(miss_in_words(tailored, kind));
+  start.seconds = seconds_since(begin);
+  return start;
+}
+
+std::vector<RayMap> wished_maps(const Scene& scene) {
+  if (scene.tailored.map) return {*scene.tailored.map};
+  return {RayMap::diverging, RayMap::crossing};
+}
+
+}  // namespace
+
+TailoredStart tailored_variables(const Scene& scene) {
+  const auto begin = Clock::now();
+  const double apex = scene.profile.points().front().z_mm - scene.source.position_mm.z();
+  TailoringTask task = tailoring_task(scene, apex < 0 ? -1 : 1);
+  const ProfileVariables family = listed_variables(scene);
+  std::optional<Tailored> best;
+  RayMap kind{};
+  long evaluations = 0;
+  int starts = 0;
+  for (const RayMap each : wished_maps(scene)) {
+    Tailored tailored = tailor(task.map, task.layout, each, family);
+    evaluations += tailored.evaluations;
+    starts += tailored.starts;
+    if (best && !(tailored.miss_rad < best->miss_rad)) continue;
+    const bool exact = tailored.miss_rad <= TailoringOptions{}.reach_rad;
+    best = std::move(tailored);
+    kind = each;
+    if (exact) break;
+  }
+  best->evaluations = evaluations;
+  best->starts = starts;
+  return result(std::move(task), std::move(*best), kind, begin);
+}
+
+TailoredStart tailored_from_nothing(const Scene& scene) {
+  const auto begin = Clock::now();
+  const double apex_side = scene.source.position_mm.z() < scene.near_field.center_mm().z() ? -1 : 1;
+  TailoringTask task = tailoring_task(scene, apex_side);
+  const FromNothing maker(scene, task);
+  std::optional<FromNothing::Made> best;
+  std::string why_not;
+  for (const RayMap kind : wished_maps(scene)) {
+    auto made = maker.make(kind);
+    if (const auto* why = std::get_if<std::string>(&made)) {
+      why_not += fmt::format("{}{}: {}", why_not.empty() ? "" : "; ", name(kind), *why);
+      continue;
+    }
+    auto& candidate = std::get<FromNothing::Made>(made);
+    if (!best || candidate.light_error_rel < best->light_error_rel) best = std::move(candidate);
+  }
+  if (!best)
+    throw scene.settings.error("start", "no tailored mirror reaches this target", why_not,
+                               "another tailored.vertex, a larger package, or a smaller field");
+  return result(std::move(task), std::move(best->tailored), best->kind, begin);
+}
+
+}  // namespace catoptric::design
