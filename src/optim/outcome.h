@@ -20,8 +20,9 @@ struct Iterate {
   long k;                 ///< successes so far: index in the sequence of ever-improving solutions
   long iteration;         ///< iterations so far, those that only reduced the step included
   long evaluations;       ///< objective values computed so far (cache hits not counted)
-  double step;            ///< present step as a share of the first, after this iteration's reduction
-  std::string move;       ///< "start", "exploratory", "pattern", "reduce"
+  double step;            ///< present step as a share of the first, after this iteration's reduction; 1 where
+                          ///< a search has no step of its own
+  std::string move;       ///< "start", "exploratory", "pattern", "reduce"; "step" of other searches
   std::vector<double> x;  ///< best point so far
   double value;           ///< its objective
 };
@@ -37,6 +38,7 @@ struct Outcome {
   long iterations = 0;  ///< the last one may have been broken off by a limit or a stop
   long evaluations = 0;
   long cache_hits = 0;
+  long restarts = 0;             ///< of multi_start: searches begun after the first
   std::vector<Iterate> history;  ///< the start, then one entry per iteration that improved or reduced
 };
 

@@ -35,4 +35,13 @@ void require_sound(const Problem& problem) {
   for (const Variable& variable : problem.variables) require_sound(variable);
 }
 
+void require_finite_box(const Problem& problem) {
+  for (const Variable& variable : problem.variables)
+    if (!std::isfinite(variable.lower) || !std::isfinite(variable.upper))
+      throw InputError({"the search has no end", fmt::format("variable '{}'", variable.name),
+                        fmt::format("this method looks over the whole box, and [{}, {}] is not finite",
+                                    variable.lower, variable.upper),
+                        "give both bounds"});
+}
+
 }  // namespace catoptric::optim

@@ -27,4 +27,8 @@ struct Problem {
 ///        positive and finite, a start that is not finite or outside its bounds
 void require_sound(const Problem& problem);
 
+/// For searches that look over the whole box.
+/// @fails InputError, naming the variable, when a bound is infinite
+void require_finite_box(const Problem& problem);
+
 }  // namespace catoptric::optim
