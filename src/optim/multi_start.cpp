@@ -63,10 +63,6 @@ void merge(Outcome& all, Outcome next) {
   all.best = std::move(next.best);
 }
 
-bool ends_all(Ending ending) {
-  return ending == Ending::target_reached || ending == Ending::stopped || ending == Ending::evaluation_limit;
-}
-
 }  // namespace
 
 Outcome multi_start(const Problem& problem, const std::function<Outcome(const StartedSearch&)>& search,
@@ -83,17 +79,17 @@ Outcome multi_start(const Problem& problem, const std::function<Outcome(const St
     all.ending = one.ending;
     all.sentence = one.sentence;
     merge(all, std::move(one));
-    if (ends_all(all.ending) || all.restarts >= options.most_restarts) break;
+    if (all.ending == Ending::target_reached || all.ending == Ending::stopped) break;
     if (all.evaluations >= options.limits.most_evaluations) {
       all.ending = Ending::evaluation_limit;
+      all.sentence = fmt::format("stopped by the limit of {} evaluations", all.evaluations);
       break;
     }
+    if (all.restarts >= options.most_restarts) break;
     ++all.restarts;
     const std::vector<double> x = starts.next(problem.variables);
     for (std::size_t i = 0; i < x.size(); ++i) at_start.variables[i].start = x[i];
   }
-  if (all.ending == Ending::evaluation_limit)
-    all.sentence = fmt::format("stopped by the limit of {} evaluations", options.limits.most_evaluations);
   if (all.restarts > 0) all.sentence += fmt::format("; best of {} starts", all.restarts + 1);
   return all;
 }

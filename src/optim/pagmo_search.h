@@ -25,6 +25,8 @@ struct PagmoOptions {
   int population = 0;  ///< 0: what suits the method, see pagmo_population
   double smallest_step =
       1e-8;  ///< spread of the population, or the compass's step, over the box, that ends it
+  long annealing_evaluations = 10000;  ///< simulated_annealing: how slowly it cools; not the budget, so that
+                                       ///< a search resumed with a larger one goes the same way
 };
 
 /// The population a method works with: the one asked for, raised to what the method needs.
