@@ -40,23 +40,33 @@ double farthest_share(double from, double low, double high, double box_low, doub
 }  // namespace
 
 bool is_view_clear(const Profile& profile, const Vector3& from_mm, std::span<const FieldSample> samples) {
+  return is_view_clear(profile, from_mm, 0, samples);
+}
+
+bool is_view_clear(const Profile& profile, const Vector3& center_mm, double extent_mm,
+                   std::span<const FieldSample> samples) {
   if (samples.empty()) return true;
   const Tolerance tolerance = Tolerance::for_scale(profile.diagonal_mm());
   const Extent extent = extent_of(samples);
-  const double from_z = from_mm.z();
-  const double low = std::min(from_z, extent.low_mm), high = std::max(from_z, extent.high_mm);
+  const double lowest = center_mm.z() - extent_mm, highest = center_mm.z() + extent_mm;
+  const double low = std::min(lowest, extent.low_mm), high = std::max(highest, extent.high_mm);
   const double slack = tolerance.length_mm;
   if (profile.z_min_mm() > high + slack || profile.z_max_mm() < low - slack) return true;
-  const bool on_axis = std::hypot(from_mm.x(), from_mm.y()) <= tolerance.length_mm;
+  const double aside_mm = std::hypot(center_mm.x(), center_mm.y());
   const bool apart =
-      from_z < extent.low_mm - tolerance.lift_mm || from_z > extent.high_mm + tolerance.lift_mm;
-  if (!on_axis || !apart) return false;
+      highest < extent.low_mm - tolerance.lift_mm || lowest > extent.high_mm + tolerance.lift_mm;
+  if (!(aside_mm <= tolerance.length_mm) || !apart) return false;
   // Boxes a thirty-second of a span long are tighter than any lamp's way through a mirror.
   constexpr int halvings = 5;
   for (const HullBox& box : hull_boxes(profile, halvings)) {
-    const double share =
-        farthest_share(from_z, extent.low_mm, extent.high_mm, box.z_min_mm - slack, box.z_max_mm + slack);
-    if (share >= 0 && share * extent.r_max_mm >= box.r_min_mm - 2 * slack) return false;
+    // Between the heights of the ball the share only rises or only falls.
+    const auto share_from = [&](double height) {
+      return farthest_share(height, extent.low_mm, extent.high_mm, box.z_min_mm - slack,
+                            box.z_max_mm + slack);
+    };
+    const double share = std::max(share_from(lowest), share_from(highest));
+    const double out_mm = std::max(extent_mm, extent_mm + share * (extent.r_max_mm - extent_mm));
+    if (share >= 0 && out_mm >= box.r_min_mm - 2 * slack) return false;
   }
   return true;
 }

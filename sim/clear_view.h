@@ -20,4 +20,9 @@ namespace catoptric::sim {
 /// @cost  O(samples), some ns each, and where heights overlap O(spans)
 bool is_view_clear(const Profile& profile, const Vector3& from_mm, std::span<const FieldSample> samples);
 
+/// The same for all points of a ball about the place. At the share t of its height a way from it is at most
+/// (1 - t) times its start's and t times its end's distance from the axis.
+bool is_view_clear(const Profile& profile, const Vector3& center_mm, double extent_mm,
+                   std::span<const FieldSample> samples);
+
 }  // namespace catoptric::sim

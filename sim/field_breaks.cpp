@@ -134,9 +134,9 @@ class Sheet {
 
  private:
   struct Cell {
-    bool whole = true;                        ///< all of its corners land
-    double clear_mm = HUGE_VAL;               ///< of the patch
-    double area_mm2 = 0, solid_angle_sr = 0;  ///< the area's sign is the orientation
+    bool whole = true;                 ///< all of its corners land
+    double clear_mm = HUGE_VAL;        ///< of the patch
+    double area_mm2 = 0, power_w = 0;  ///< the area's sign is the orientation
   };
 
   Cell cell_at(std::size_t row, std::size_t column) const {
@@ -155,16 +155,18 @@ class Sheet {
     if (nearest < HUGE_VAL) cell.clear_mm = std::max(0.0, nearest - box.diagonal().norm());
     cell.area_mm2 =
         0.5 * cross(corners[2]->plane_mm - corners[0]->plane_mm, corners[3]->plane_mm - corners[1]->plane_mm);
-    cell.solid_angle_sr =
-        0.5 * (corners[2]->way - corners[0]->way).cross(corners[3]->way - corners[1]->way).norm();
+    const Vector3 middle = corners[0]->way + corners[1]->way + corners[2]->way + corners[3]->way;
+    cell.power_w = scene_.source.intensity_w_per_sr(middle.normalized()) * 0.5 *
+                   (corners[2]->way - corners[0]->way).cross(corners[3]->way - corners[1]->way).norm();
     return cell;
   }
 
   /// Whether two neighbours show one smooth irradiance.
   static bool agree(const Cell& a, const Cell& b) {
     constexpr double most = 2;
+    if (a.power_w == 0 && b.power_w == 0) return true;  // a source that leaves them dark
     if (!a.whole || !b.whole) return false;
-    const double one = a.solid_angle_sr * b.area_mm2, other = b.solid_angle_sr * a.area_mm2;
+    const double one = a.power_w * b.area_mm2, other = b.power_w * a.area_mm2;
     return one * other > 0 && std::abs(one) < most * std::abs(other) &&
            std::abs(other) < most * std::abs(one);
   }
@@ -240,7 +242,7 @@ class Meetings {
 
 /// What a grid of rays cannot tell.
 std::optional<std::string> untold(const Scene& scene, UnknownBreaks unknown) {
-  if (dynamic_cast<const PointSource*>(&scene.source) == nullptr) return "the source is no point";
+  if (scene.source.extent_mm() > 0) return "the source is extended";
   if (scene.mirror.transmittance > 0) return "light goes through the mirror, whose edges it shows";
   if (scene.near_field.material() && unknown != UnknownBreaks::folds)
     return "the near field is real and may shade the mirror";

@@ -68,12 +68,15 @@ class Description {
   }
 
   void source() {
-    const Vector3& at_mm = scene_.source.position_mm();
-    const bool on_axis = at_mm.x() == 0 && at_mm.y() == 0;
-    add("source", on_axis ? "a point on the axis" : "a point off the axis",
-        on_axis ? "rays stay in their meridian plane: two dimensions are enough"
-                : "rays leave their meridian plane: three dimensions");
-    add("source's size", "none", "left out: the scene has no extended source");
+    const Source& light = scene_.source;
+    const Vector3& at_mm = light.position_mm();
+    const bool on_axis = at_mm.x() == 0 && at_mm.y() == 0, extended = light.extent_mm() > 0;
+    add("source", fmt::format("{} {} the axis", light.words(), on_axis ? "on" : "off"),
+        !on_axis || extended    ? "rays leave their meridian plane: three dimensions"
+        : light.tilt_rad() == 0 ? "rays stay in their meridian plane: two dimensions are enough"
+                                : "its axis is tilted: light differs from azimuth to azimuth");
+    add("source's size", extended ? fmt::format("{:g} mm about its position", light.extent_mm()) : "none",
+        (extended ? "photons start all over it; " : "left out: ") + light.left_out());
   }
 
   void mirror() {
@@ -89,7 +92,7 @@ class Description {
   void near_field() {
     const bool across = scene_.near_field.normal().head<2>().isZero();
     add("near field", across ? "a plane across the axis" : "a tilted plane",
-        across ? "with the source on the axis irradiance depends on the distance from it alone"
+        across ? "with the source on the axis, upright, irradiance depends on the distance from it alone"
                : "irradiance has no symmetry about the axis");
     const auto& material = scene_.near_field.material();
     add("near field's surface", material ? "real" : "invisible",
@@ -111,14 +114,16 @@ class Description {
   void shadow() {
     constexpr std::size_t places = 512;  // spread over the near field
     const bool clear = is_view_clear(scene_.reflector.profile(), scene_.source.position_mm(),
-                                     scene_.near_field.samples(places));
+                                     scene_.source.extent_mm(), scene_.near_field.samples(places));
     add("shadow on direct light", clear ? "nothing can stand between" : "the mirror may stand between",
         clear ? "left out: no ray asks for it" : "a ray to every sample asks for it");
   }
 
   void directions() {
-    const double share = emission_map(scene_).solid_angle_sr() / (4 * pi);
-    add("emission", fmt::format("{:.3g} of all directions may meet the mirror", share),
+    const ProjectionMap map = emission_map(scene_);
+    const double power_w = scene_.source.power_w();
+    const double share = power_w > 0 ? scene_.source.power_into_w(map) / power_w : 0;
+    add("emission", fmt::format("{:.3g} of the light goes where the mirror may be met", share),
         "photons are sent nowhere else");
   }
 

@@ -1,6 +1,5 @@
 #include "sim/projection_map.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,6 +8,7 @@
 #include "base/profile_hull.h"
 #include "base/units.h"
 #include "base/vector_clones.h"
+#include "sim/frame.h"
 
 namespace catoptric::sim {
 namespace {
@@ -45,14 +45,16 @@ int halvings_for(const Profile& profile, int pieces) {
   return halvings;
 }
 
-/// Cosines under which the boxes are seen from (0, source_z); nothing when a box holds the source. A box is
-/// convex and lies in r >= 0, so its extreme polar angles are at corners.
-std::optional<std::vector<Interval>> seen_boxes(const std::vector<HullBox>& boxes, double source_z_mm) {
+/// Cosines under which the boxes are seen from the points of a level disc about (0, source_z); nothing when
+/// one of them may lie in a box. The ways to a box end, seen from a common origin, in a box that is wider by
+/// the disc's radius; it is convex and lies in r >= 0, so its extreme polar angles are at corners.
+std::optional<std::vector<Interval>> seen_boxes(const std::vector<HullBox>& boxes, double source_z_mm,
+                                                double radius_mm) {
   // A cosine is good to 2 roundings; 8 of them more on either side keep the border directions in.
   constexpr double slack = 8 * 2.220446049250313e-16;
   std::vector<Interval> seen;
   for (const HullBox& box : boxes) {
-    const double r0 = std::max(0.0, box.r_min_mm), r1 = std::max(r0, box.r_max_mm);
+    const double r0 = std::max(0.0, box.r_min_mm - radius_mm), r1 = std::max(r0, box.r_max_mm + radius_mm);
     const double z0 = box.z_min_mm - source_z_mm, z1 = box.z_max_mm - source_z_mm;
     if (r0 == 0 && z0 <= 0 && z1 >= 0) return std::nullopt;
     const auto [low, high] =
@@ -81,7 +83,9 @@ struct Ball {
   double radius_mm;
 };
 
-std::vector<Ball> cover_with_balls(const Profile& profile, const Vector3& source_mm) {
+/// Balls about all ways from points of the source to points of the mirror.
+std::vector<Ball> cover_with_balls(const Profile& profile, const Vector3& source_mm,
+                                   double source_radius_mm) {
   constexpr int pieces = 64, sectors = 128;
   const double half_sector = pi / sectors;
   std::vector<Ball> balls;
@@ -97,7 +101,7 @@ std::vector<Ball> cover_with_balls(const Profile& profile, const Vector3& source
       const double azimuth = (2 * sector + 1) * half_sector;
       const Vector3 center(middle_r * std::cos(azimuth), middle_r * std::sin(azimuth),
                            0.5 * (box.z_min_mm + box.z_max_mm));
-      balls.push_back({center - source_mm, radius});
+      balls.push_back({center - source_mm, radius + source_radius_mm});
     }
   }
   return balls;
@@ -126,20 +130,23 @@ std::optional<std::vector<Cone>> cones_of(const std::vector<Ball>& balls, const 
   return cones;
 }
 
-/// Equal-area cells of the cap round the polar axis: rows in the cosine from 1 down to `low`, columns in
+/// Cells of equal light round the polar axis: rows in the cosine from `high` down to `low`, columns in
 /// azimuth.
 class CellGrid {
  public:
-  explicit CellGrid(double low) : low_(low), marks_(rows * columns, 0) {}
+  CellGrid(const CosineLaw& law, double low, double high)
+      : law_(law), least_(law.integral(low)), most_(law.integral(high)), marks_(rows * columns, 0) {}
 
   static constexpr int rows = 64, columns = 128;
 
-  double cosine_above(int row) const { return 1 - (1 - low_) * row / rows; }
+  bool has_light() const { return most_ > least_; }
+  double cosine_above(int row) const { return law_.inverse(most_ - (most_ - least_) * row / rows); }
   bool marked(int row, int column) const { return marks_[static_cast<std::size_t>(row * columns + column)]; }
 
   /// Marks every cell that the rectangle of polar angle and azimuth round the cone touches.
   void mark(const Cone& cone) {
     const double least = cone.polar_rad - cone.half_angle_rad, most = cone.polar_rad + cone.half_angle_rad;
+    if (!law_.is_even() && least >= 0.5 * pi) return;  // behind the source
     const int top = row_of(least <= 0 ? 1.0 : std::cos(least));
     const int bottom = row_of(most >= pi ? -1.0 : std::cos(most));
     int first = 0, count = columns;
@@ -160,28 +167,21 @@ class CellGrid {
 
  private:
   int row_of(double cosine) const {
-    return std::clamp(static_cast<int>(std::floor((1 - cosine) / (1 - low_) * rows)), 0, rows - 1);
+    const double share = (most_ - law_.integral(cosine)) / (most_ - least_);
+    return std::clamp(static_cast<int>(std::floor(share * rows)), 0, rows - 1);
   }
 
-  double low_;
+  CosineLaw law_;
+  double least_, most_;  ///< the law's integral at `low` and `high`
   std::vector<char> marks_;
 };
-
-/// A frame whose third column is the polar axis.
-Eigen::Matrix3d frame_about(const Vector3& axis) {
-  Eigen::Matrix3d frame;
-  frame.col(2) = axis.normalized();
-  const Vector3 other = std::abs(frame(0, 2)) < 0.9 ? Vector3::UnitX() : Vector3::UnitY();
-  frame.col(0) = (other - other.dot(frame.col(2)) * frame.col(2)).normalized();
-  frame.col(1) = frame.col(2).cross(frame.col(0));
-  return frame;
-}
 
 struct BandNumbers {
   double before_sr, whole_sr, width_rad, low, high;
 };
 
-/// Sets the cosines of the numbers that fall into a band or beyond it.
+/// Sets the law's integrals (or cosines where they are the same) of the numbers that fall into a band or
+/// beyond it.
 CATOPTRIC_VECTOR_CLONES
 void set_band(const BandNumbers& band, std::size_t count, const double* __restrict first,
               double* __restrict cosines) {
@@ -200,54 +200,78 @@ void set_band(const BandNumbers& band, std::size_t count, const double* __restri
 void ProjectionMap::add_band(double low, double high, std::vector<Arc> arcs) {
   double width = 0;
   for (const Arc& arc : arcs) width += arc.length_rad;
-  if (!(high > low) || !(width > 0)) return;
-  bands_.push_back({low, high, solid_angle_sr_, width, std::move(arcs)});
+  if (!(high > low)) return;
+  const double from = law_.integral(low), light = (law_.integral(high) - from) * width;
+  if (!(light > 0)) return;
+  bands_.push_back({low, high, light_sr_, width, from, std::move(arcs)});
+  light_sr_ += light;
   solid_angle_sr_ += (high - low) * width;
 }
 
-ProjectionMap ProjectionMap::whole_sphere() {
-  ProjectionMap map;
-  map.add_band(-1, 1, {{0, 2 * pi}});
+ProjectionMap ProjectionMap::whole_sphere() { return all_lit(Emitter{Vector3::Zero()}); }
+
+ProjectionMap ProjectionMap::all_lit(const Emitter& emitter) {
+  ProjectionMap map(emitter.law);
+  const Vector3& axis = emitter.axis;
+  const bool level = axis.x() == 0 && axis.y() == 0, down = level && axis.z() < 0;
+  if (!emitter.law.is_even() && !level) map.frame_ = frame_about(axis);
+  map.add_band(emitter.law.is_even() || down ? -1 : 0, !emitter.law.is_even() && down ? 0 : 1, {{0, 2 * pi}});
   return map;
 }
 
-ProjectionMap ProjectionMap::towards(const Profile& profile, const Vector3& source_mm) {
-  if (source_mm.x() == 0 && source_mm.y() == 0) return from_axis(profile, source_mm.z());
-  return from_aside(profile, source_mm);
+ProjectionMap ProjectionMap::towards(const Profile& profile, const Emitter& emitter) {
+  const Vector3 &at = emitter.center_mm, &axis = emitter.axis;
+  const bool straight = emitter.law.is_even() ? emitter.radius_mm == 0 : axis.x() == 0 && axis.y() == 0;
+  ProjectionMap map =
+      at.x() == 0 && at.y() == 0 && straight ? from_axis(profile, emitter) : from_aside(profile, emitter);
+  return map.bands_.empty() ? all_lit(emitter) : map;
 }
 
-ProjectionMap ProjectionMap::from_axis(const Profile& profile, double source_z_mm) {
+ProjectionMap ProjectionMap::from_axis(const Profile& profile, const Emitter& emitter) {
   constexpr double most_waste = 0.005;
   constexpr int first_pieces = 32, most_pieces = 2048;
+  const double z_mm = emitter.center_mm.z();
   std::vector<Interval> seen;
   for (int pieces = first_pieces; pieces <= most_pieces; pieces *= 4) {
     const auto boxes = hull_boxes(profile, halvings_for(profile, pieces));
-    auto found = seen_boxes(boxes, source_z_mm);
-    if (!found) {  // a smaller box may leave the source out
+    const auto found = seen_boxes(boxes, z_mm, 0);
+    auto wider = seen_boxes(boxes, z_mm, emitter.radius_mm);
+    if (!found || !wider) {  // a smaller box may leave the source out
       seen.clear();
       continue;
     }
-    seen = std::move(*found);
-    if (measure(seen) - certain_measure(profile, boxes, source_z_mm) <= most_waste * measure(seen)) break;
+    seen = std::move(*wider);
+    if (measure(*found) - certain_measure(profile, boxes, z_mm) <= most_waste * measure(*found)) break;
   }
-  if (seen.empty()) return whole_sphere();
-  ProjectionMap map;
-  for (const Interval& part : seen) map.add_band(part.low, part.high, {{0, 2 * pi}});
+  ProjectionMap map(emitter.law);
+  const bool even = emitter.law.is_even(), down = emitter.axis.z() < 0;
+  const double low = even || down ? -1 : 0, high = !even && down ? 0 : 1;
+  for (const Interval& part : seen)
+    map.add_band(std::max(low, part.low), std::min(high, part.high), {{0, 2 * pi}});
   return map;
 }
 
-ProjectionMap ProjectionMap::from_aside(const Profile& profile, const Vector3& source_mm) {
+ProjectionMap ProjectionMap::from_aside(const Profile& profile, const Emitter& emitter) {
   const Vector3 center(0, 0, 0.5 * (profile.z_min_mm() + profile.z_max_mm()));
-  const Vector3 way = center - source_mm;
-  ProjectionMap map;
+  const Vector3 way = center - emitter.center_mm;
+  const bool even = emitter.law.is_even();
+  ProjectionMap map(emitter.law);
   // From near the centre every axis is as good; z keeps the rim parallel to the rows.
   constexpr double near_share = 0.01;
-  map.frame_ = frame_about(way.norm() > near_share * profile.diagonal_mm() ? way : Vector3::UnitZ());
-  const auto cones = cones_of(cover_with_balls(profile, source_mm), map.frame_);
-  if (!cones) return whole_sphere();
-  double widest_rad = 0;
-  for (const Cone& cone : *cones) widest_rad = std::max(widest_rad, cone.polar_rad + cone.half_angle_rad);
-  CellGrid grid(std::cos(std::min(pi, widest_rad)));
+  map.frame_ = frame_about(!even                                             ? emitter.axis
+                           : way.norm() > near_share * profile.diagonal_mm() ? way
+                                                                             : Vector3::UnitZ());
+  const auto cones = cones_of(cover_with_balls(profile, emitter.center_mm, emitter.radius_mm), map.frame_);
+  if (!cones) return map;
+  double widest_rad = 0, narrowest_rad = pi;
+  for (const Cone& cone : *cones) {
+    widest_rad = std::max(widest_rad, cone.polar_rad + cone.half_angle_rad);
+    narrowest_rad = std::min(narrowest_rad, cone.polar_rad - cone.half_angle_rad);
+  }
+  const double low = even ? std::cos(std::min(pi, widest_rad)) : std::cos(std::min(0.5 * pi, widest_rad));
+  CellGrid grid(emitter.law, std::max(even ? -1.0 : 0.0, low),
+                even ? 1.0 : std::cos(std::clamp(narrowest_rad, 0.0, 0.5 * pi)));
+  if (!grid.has_light()) return map;
   for (const Cone& cone : *cones) grid.mark(cone);
 
   const double column_rad = 2 * pi / CellGrid::columns;
@@ -266,12 +290,13 @@ ProjectionMap ProjectionMap::from_aside(const Profile& profile, const Vector3& s
 }
 
 Vector3 ProjectionMap::direction(double first, double second) const {
-  const double target_sr = first * solid_angle_sr_;
+  const double target_sr = first * light_sr_;
   const auto after = std::upper_bound(bands_.begin() + 1, bands_.end(), target_sr,
                                       [](double value, const Band& band) { return value < band.before_sr; });
   const Band& band = *std::prev(after);
-  const double cosine =
-      std::clamp(band.low + (target_sr - band.before_sr) / band.width_rad, band.low, band.high);
+  const double integral = std::clamp(band.from + (target_sr - band.before_sr) / band.width_rad, band.from,
+                                     law_.integral(band.high));
+  const double cosine = std::clamp(law_.inverse(integral), bands_.front().low, bands_.back().high);
   double along = second * band.width_rad;
   std::size_t arc = 0;
   while (arc + 1 < band.arcs.size() && along >= band.arcs[arc].length_rad)
@@ -290,8 +315,11 @@ bool ProjectionMap::about_axis() const {
 void ProjectionMap::cosines(std::span<const double> first, std::span<double> cosines) const {
   CATOPTRIC_EXPECTS(about_axis() && first.size() == cosines.size());
   for (const Band& band : bands_)
-    set_band({band.before_sr, solid_angle_sr_, band.width_rad, band.low, band.high}, first.size(),
+    set_band({band.before_sr, light_sr_, band.width_rad, band.from, law_.integral(band.high)}, first.size(),
              first.data(), cosines.data());
+  if (law_.is_even()) return;
+  const auto &lowest = bands_.front(), &highest = bands_.back();
+  for (double& cosine : cosines) cosine = std::clamp(law_.inverse(cosine), lowest.low, highest.high);
 }
 
 bool ProjectionMap::contains(const Vector3& direction) const {

@@ -19,7 +19,9 @@ class EdgeRays {
   void start(const MeridianPoint& edge) {
     const Vector3 from = scene_.source.position_mm(), point(edge.r_mm, 0, edge.z_mm);
     const Vector3 normal = Vector3(edge.dz, 0, -edge.dr).normalized(), way = point - from;
-    if (!normal.allFinite() || !(way.norm() > lift_mm_) || probe_->blocks(from, point, lift_mm_)) return;
+    if (!normal.allFinite() || !(way.norm() > lift_mm_) ||
+        !(scene_.source.intensity_w_per_sr(way.normalized()) > 0) || probe_->blocks(from, point, lift_mm_))
+      return;
     const Vector3 direction = way.normalized();
     if (scene_.mirror.reflectance > 0) follow({point, reflect(direction, normal)});
     if (scene_.mirror.transmittance > 0) land({point, direction}, HUGE_VAL);
@@ -53,6 +55,7 @@ class EdgeRays {
 }  // namespace
 
 std::vector<double> edge_landing_squares(const Scene& scene) {
+  if (scene.source.extent_mm() > 0) return {};  // whose edges of light are blurred
   EdgeRays rays(scene);
   for (const SmoothStretch& stretch : smooth_stretches(scene.reflector.profile())) {
     if (stretch.edge_at_begin) rays.start(stretch.begin);

@@ -199,6 +199,9 @@ std::optional<std::string> rings_objection(const Scene& scene) {
   if (aside_mm > tolerance.length_mm)
     return fmt::format("the source is {:.4g} mm off the axis, so the light differs from azimuth to azimuth",
                        aside_mm);
+  if (scene.source.tilt_rad() > tolerance.angle_rad)
+    return fmt::format("the source's axis is tilted by {:.4g} degrees against the mirror's",
+                       scene.source.tilt_rad() * 180 / pi);
   const double tilt_rad = std::asin(std::min(1.0, field.normal().head<2>().norm()));
   if (tilt_rad > tolerance.angle_rad)
     return fmt::format("the near field is tilted by {:.4g} degrees against a plane across the axis",

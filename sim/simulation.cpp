@@ -10,17 +10,6 @@
 
 namespace catoptric::sim {
 
-namespace {
-
-/// A probe of a mirror that stands nowhere.
-class OpenSpace final : public Probe {
- public:
-  std::optional<Hit> first_hit(const Ray&, double) override { return std::nullopt; }
-  std::vector<Hit> all_hits(const Ray&, double) override { return {}; }
-};
-
-}  // namespace
-
 std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample> samples) {
   std::vector<double> direct(samples.size());
   const Profile& profile = scene.reflector.profile();
@@ -28,11 +17,9 @@ std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample
   const auto shine = [&](std::size_t i, Probe& probe) {
     return scene.source.direct_w_per_mm2(samples[i].point_mm, samples[i].normal, probe, lift_mm);
   };
-  // Only a point source shines from its position alone.
-  if (dynamic_cast<const PointSource*>(&scene.source) != nullptr &&
-      is_view_clear(profile, scene.source.position_mm(), samples)) {
-    OpenSpace open;
-    for (std::size_t i = 0; i < samples.size(); ++i) direct[i] = shine(i, open);
+  if (is_view_clear(profile, scene.source.position_mm(), scene.source.extent_mm(), samples)) {
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      direct[i] = scene.source.unhindered_w_per_mm2(samples[i].point_mm, samples[i].normal);
     return direct;
   }
   // One probe a chunk: engines may keep caches in it, and those must not depend on the number of threads.

@@ -10,33 +10,70 @@
 
 namespace catoptric::sim {
 
-PointSource::PointSource(const Vector3& position_mm, double power_w)
-    : position_mm_(position_mm), power_w_(power_w) {
+void check_source(const Vector3& position_mm, double power_w, const Vector3& axis) {
   if (!position_mm.allFinite())
     throw InputError({"the position is not finite", "source", "coordinates are finite numbers",
                       "write three finite numbers"});
   if (!(std::isfinite(power_w) && power_w >= 0))
     throw InputError({fmt::format("power of {} W", power_w), "source", "a power is finite and not negative",
                       "give it a positive power"});
+  if (!(axis.allFinite() && axis.stableNorm() > 0))
+    throw InputError({"the axis has no direction", "source", "it is a finite vector, not zero", "[0, 0, 1]"});
+}
+
+Vector3 unit_axis(const Vector3& axis) { return axis.stableNormalized(); }
+
+double tilt_of(const Vector3& axis) { return std::atan2(std::hypot(axis.x(), axis.y()), std::abs(axis.z())); }
+
+PointSource::PointSource(const Vector3& position_mm, double power_w, double exponent, const Vector3& axis)
+    : position_mm_(position_mm), power_w_(power_w), law_{exponent}, axis_(unit_axis(axis)) {
+  check_source(position_mm, power_w, axis);
+  if (!(std::isfinite(exponent) && exponent >= 0))
+    throw InputError({fmt::format("exponent of {}", exponent), "source",
+                      "the exponent of the intensity's cosine is finite and not negative",
+                      "1 is Lambert's law, 0 the same in all directions"});
+}
+
+double PointSource::tilt_rad() const { return law_.is_even() ? 0 : tilt_of(axis_); }
+
+double PointSource::intensity_w_per_sr(const Vector3& direction) const {
+  if (law_.is_even()) return power_w_ / (4 * pi);
+  return power_w_ / law_.total_sr() * law_(direction.dot(axis_));
+}
+
+std::string PointSource::words() const {
+  return law_.is_even() ? "a point" : fmt::format("a point with intensity like cosine^{:g}", law_.exponent);
+}
+
+ProjectionMap PointSource::directions_to(const Profile& mirror) const {
+  return ProjectionMap::towards(mirror, Emitter{position_mm_, 0, law_, axis_});
+}
+
+ProjectionMap PointSource::all_directions() const {
+  return ProjectionMap::all_lit(Emitter{position_mm_, 0, law_, axis_});
 }
 
 double PointSource::power_into_w(const ProjectionMap& map) const {
-  return map.solid_angle_sr() / (4 * pi) * power_w_;
+  return map.light_sr() / law_.total_sr() * power_w_;
 }
 
 Ray PointSource::emit(const ProjectionMap& map, const std::array<double, 4>& numbers) const {
   return {position_mm_, map.direction(numbers[0], numbers[1])};
 }
 
-double PointSource::direct_w_per_mm2(const Vector3& point_mm, const Vector3& normal, Probe& mirror,
-                                     double lift_mm) const {
+double PointSource::unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const {
   const Vector3 way = position_mm_ - point_mm;
   const double height_mm = way.dot(normal);
   if (!(height_mm > 0)) return 0;
-  if (mirror.blocks(position_mm_, point_mm, lift_mm)) return 0;
   const double distance_mm = way.norm();
   // Divided step by step: the cube of a distance of kilometres or nanometres would leave the range early.
-  return power_w_ / (4 * pi) * (height_mm / distance_mm) / distance_mm / distance_mm;
+  return intensity_w_per_sr(-way / distance_mm) * (height_mm / distance_mm) / distance_mm / distance_mm;
+}
+
+double PointSource::direct_w_per_mm2(const Vector3& point_mm, const Vector3& normal, Probe& mirror,
+                                     double lift_mm) const {
+  const double unhindered = unhindered_w_per_mm2(point_mm, normal);
+  return unhindered > 0 && mirror.blocks(position_mm_, point_mm, lift_mm) ? 0 : unhindered;
 }
 
 }  // namespace catoptric::sim

@@ -1,8 +1,14 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "base/ray.h"
+#include "sim/cosine_law.h"
+
+namespace catoptric {
+class Profile;
+}
 
 namespace catoptric::sim {
 
@@ -16,8 +22,27 @@ class Source {
   virtual double power_w() const = 0;
   virtual Vector3 position_mm() const = 0;
 
-  /// The part of the power that goes into the directions of `map`: for a source that is the same in all
-  /// directions, (solid angle of the map / 4 pi) times its power. Photons share it equally.
+  /// Radius of a ball about the position that holds the source; 0 for a point.
+  virtual double extent_mm() const { return 0; }
+
+  /// Angle between the z axis and the axis about which the source and its light are symmetric; 0 also where
+  /// every axis will do. On the z axis with no tilt, the light is the same all round it.
+  virtual double tilt_rad() const { return 0; }
+
+  /// Power per solid angle in a direction, W/sr, as seen from so far that the source is a point.
+  /// @in    direction: a unit vector
+  virtual double intensity_w_per_sr(const Vector3& direction) const = 0;
+
+  /// What it is, in words: "a point", "a disc ..."; and what of its nature the model leaves out.
+  virtual std::string words() const = 0;
+  virtual std::string left_out() const = 0;
+
+  /// The directions photons are sent to: those in which a mirror may be met, or all that the source lights.
+  virtual ProjectionMap directions_to(const Profile& mirror) const = 0;
+  virtual ProjectionMap all_directions() const = 0;
+
+  /// The part of the power that goes into the directions of `map`. Photons share it equally.
+  /// @in    a map of this source
   /// @from  Jensen & Christensen 1995; paper section 4.4
   virtual double power_into_w(const ProjectionMap& map) const = 0;
 
@@ -25,34 +50,63 @@ class Source {
   virtual std::size_t emission_numbers() const { return 4; }
 
   /// One photon's path from the source into the directions of `map`.
-  /// @in    numbers: uniform in [0, 1)
+  /// @in    numbers: uniform in [0, 1); a map of this source
   /// @out   a continuous function of the numbers as far as the map allows, so that low-discrepancy points
   ///        keep their quality
   virtual Ray emit(const ProjectionMap& map, const std::array<double, 4>& numbers) const = 0;
 
-  /// Irradiance straight from the source on a surface element, W/mm^2, with occlusion by the mirror; 0 behind
-  /// the element and in its own plane.
+  /// Irradiance straight from the source on a surface element with nothing in the way, W/mm^2; 0 behind the
+  /// element and in its own plane.
+  virtual double unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const = 0;
+
+  /// The same with occlusion by the mirror.
   virtual double direct_w_per_mm2(const Vector3& point_mm, const Vector3& normal, Probe& mirror,
                                   double lift_mm) const = 0;
 };
 
-/// A point that radiates the same in all directions.
+/// A point that radiates the same in all directions, or with the intensity I0 cos^n about an axis and nothing
+/// behind, where I0 = power (n + 1) / (2 pi).
 class PointSource final : public Source {
  public:
-  /// @fails InputError for a position that is not finite, a power that is negative or not finite
-  PointSource(const Vector3& position_mm, double power_w);
+  /// @in    exponent 0: the same in all directions, without an axis
+  /// @fails InputError for a position that is not finite, a power or an exponent that is negative or not
+  ///        finite, an axis without direction
+  PointSource(const Vector3& position_mm, double power_w, double exponent = 0,
+              const Vector3& axis = Vector3::UnitZ());
   double power_w() const override { return power_w_; }
   Vector3 position_mm() const override { return position_mm_; }
+  double tilt_rad() const override;
+  double intensity_w_per_sr(const Vector3& direction) const override;
+  std::string words() const override;
+  std::string left_out() const override { return "the scene has no extended source"; }
+  ProjectionMap directions_to(const Profile& mirror) const override;
+  ProjectionMap all_directions() const override;
   double power_into_w(const ProjectionMap& map) const override;
   std::size_t emission_numbers() const override { return 2; }
   Ray emit(const ProjectionMap& map, const std::array<double, 4>& numbers) const override;
-  /// @from  paper eq. 13, for any distance and tilt: power cos / (4 pi distance^2)
+  /// @from  paper eq. 13, for any distance and tilt: intensity cos / distance^2
+  double unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const override;
   double direct_w_per_mm2(const Vector3& point_mm, const Vector3& normal, Probe& mirror,
                           double lift_mm) const override;
+
+  const CosineLaw& law() const { return law_; }
+  const Vector3& axis() const { return axis_; }
 
  private:
   Vector3 position_mm_;
   double power_w_;
+  CosineLaw law_;
+  Vector3 axis_;
 };
+
+/// What keeps a place, a power and an axis from being a source's.
+/// @fails InputError naming it
+void check_source(const Vector3& position_mm, double power_w, const Vector3& axis);
+
+/// The axis as a unit vector, exactly itself where it is one of the coordinate axes.
+Vector3 unit_axis(const Vector3& axis);
+
+/// Angle between an axis of either sense and z, exactly 0 where they are parallel.
+double tilt_of(const Vector3& axis);
 
 }  // namespace catoptric::sim

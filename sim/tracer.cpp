@@ -228,8 +228,8 @@ ProjectionMap emission_map(const Scene& scene) {
     throw InputError(std::move(*defect));
   }
   const auto& material = scene.near_field.material();
-  if (material && material->reflectance > 0) return ProjectionMap::whole_sphere();
-  return ProjectionMap::towards(scene.reflector.profile(), scene.source.position_mm());
+  if (material && material->reflectance > 0) return scene.source.all_directions();
+  return scene.source.directions_to(scene.reflector.profile());
 }
 
 struct PhotonFlights::Parts {

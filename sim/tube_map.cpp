@@ -37,15 +37,10 @@ struct Interval {
   std::size_t high() const { return nodes[4]; }
 };
 
-double flux_share(double low_rad, double high_rad) {
-  // Half the difference of cosines, without their cancellation.
-  return std::sin(0.5 * (low_rad + high_rad)) * std::sin(0.5 * (high_rad - low_rad));
-}
-
 class TubeMaker {
  public:
-  TubeMaker(const TubeTracer& tracer, double power_w, const TubeGoal& goal)
-      : tracer_(tracer), power_w_(power_w), goal_(goal), h_(goal.kernel_radius_mm), bins_(goal.r_max_mm) {}
+  TubeMaker(const TubeTracer& tracer, const AxialLight& light, const TubeGoal& goal)
+      : tracer_(tracer), light_(light), goal_(goal), h_(goal.kernel_radius_mm), bins_(goal.r_max_mm) {}
 
   TubeMap make(const std::vector<double>& breaks) {
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
@@ -175,6 +170,10 @@ class TubeMaker {
     return sum;
   }
 
+  double flux_between(std::size_t low, std::size_t high) const {
+    return light_.power_w * light_.share(theta(low), theta(high));
+  }
+
   double width(const Interval& interval) const { return theta(interval.high()) - theta(interval.low()); }
 
   bool one_path(const Interval& interval) const {
@@ -186,7 +185,7 @@ class TubeMaker {
 
   /// Adds the interval's error, times `sign`, to the bins of radii it can reach, and notes its largest.
   void book(Interval& interval, double sign) {
-    const double flux_w = power_w_ * flux_share(theta(interval.low()), theta(interval.high()));
+    const double flux_w = flux_between(interval.low(), interval.high());
     double everywhere = 0, faint = 0;
     interval.error = 0;
     for (const std::size_t node : interval.nodes) faint = std::max(faint, nodes_[node].dropped.faint);
@@ -285,8 +284,8 @@ class TubeMaker {
     bins_.clear();
     for (const Interval& interval : done_) {
       book(interval, 1);
-      map_.cut_off_w += power_w_ * flux_share(theta(interval.low()), theta(interval.high())) *
-                        nodes_[interval.nodes[2]].dropped.cut_off;
+      map_.cut_off_w +=
+          flux_between(interval.low(), interval.high()) * nodes_[interval.nodes[2]].dropped.cut_off;
       if (one_path(interval))
         emit(interval);
       else
@@ -321,7 +320,7 @@ class TubeMaker {
 
   void emit(std::size_t low, std::size_t high, std::size_t i, const Hermite& through, const Misfit& off) {
     const Landing &first = landing(low, i), &last = landing(high, i);
-    map_.landed_w += power_w_ * flux_share(theta(low), theta(high)) * first.weight;
+    map_.landed_w += flux_between(low, high) * first.weight;
     Tube tube{theta(low), theta(high), {},           first.rho_mm, last.rho_mm,
               off.mm,     off.slope,   first.weight, first.path};
     through.quintic(tube.rho);
@@ -329,7 +328,7 @@ class TubeMaker {
   }
 
   const TubeTracer& tracer_;
-  double power_w_;
+  AxialLight light_;
   TubeGoal goal_;
   double h_;
   TubeMap map_;
@@ -345,9 +344,9 @@ double polar_angle(const MeridianPoint& point, double source_z_mm) {
 
 }  // namespace
 
-TubeMap make_tubes(const TubeTracer& tracer, const std::vector<double>& breaks, double power_w,
+TubeMap make_tubes(const TubeTracer& tracer, const std::vector<double>& breaks, const AxialLight& light,
                    const TubeGoal& goal) {
-  return TubeMaker(tracer, power_w, goal).make(breaks);
+  return TubeMaker(tracer, light, goal).make(breaks);
 }
 
 std::vector<double> emission_breaks(const Profile& profile, double source_z_mm) {

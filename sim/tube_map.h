@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/axial_light.h"
 #include "sim/tube_trace.h"
 
 namespace catoptric::sim {
@@ -60,13 +61,14 @@ struct TubeMap {
   int rays = 0;
 };
 
-/// @in    breaks: emission angles between which the first surface met is one smooth piece, from 0 to pi
+/// @in    breaks: emission angles between which the first surface met is one smooth piece, from 0 to pi or
+///        where the light ends
 /// @error an interval's five rays make two tubes of three; the rays at its quarters tell how far the quintic
 ///        of the other three is off. The two tubes are off by a sixty-fourth of it, a sixteenth is counted.
 ///        The kernel's steepest slope turns it into irradiance. Between two rays on different paths all
 ///        power counts at the kernel's peak
 /// @from  Jacobsen 2001 for the use of ray derivatives; bound by the remainder of Hermite interpolation
-TubeMap make_tubes(const TubeTracer& tracer, const std::vector<double>& breaks, double power_w,
+TubeMap make_tubes(const TubeTracer& tracer, const std::vector<double>& breaks, const AxialLight& light,
                    const TubeGoal& goal);
 
 /// Emission angles at which rays from (0, source_z) meet a knot, an end of the generatrix, or its outline as

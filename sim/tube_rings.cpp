@@ -45,6 +45,11 @@ __attribute__((always_inline)) inline double sine_near(double sine, double cosin
   return sine * cosine_d + cosine * sine_d;
 }
 
+/// Cosine likewise.
+__attribute__((always_inline)) inline double cosine_near(double sine, double cosine, double d) {
+  return sine_near(cosine, -sine, d);
+}
+
 /// Nodes of the part [low, high] of a panel.
 __attribute__((always_inline)) inline void place_nodes(const Panel& panel, double low, double high,
                                                        Block& nodes) {
@@ -55,6 +60,10 @@ __attribute__((always_inline)) inline void place_nodes(const Panel& panel, doubl
         half * panel.power * gauss_w[i] * sine_near(panel.sine, panel.cosine, x * panel.half_rad);
     nodes.ring[i] = panel.at(x);
   }
+  if (!panel.light.law.is_even())
+    for (std::size_t i = 0; i < lanes; ++i)
+      nodes.power[i] *= panel.light.relative(
+          cosine_near(panel.sine, panel.cosine, (centre + half * gauss_x[i]) * panel.half_rad));
 }
 
 /// A block as seen from one radius, in kernel radii, added lane by lane.
@@ -224,9 +233,9 @@ std::vector<double> ends_of(std::span<const Tube> tubes) {
 
 }  // namespace
 
-TubeRings::TubeRings(std::span<const Tube> tubes, double power_w, double kernel_radius_mm,
+TubeRings::TubeRings(std::span<const Tube> tubes, const AxialLight& light, double kernel_radius_mm,
                      std::span<const double> radii_mm, double tolerance_w_per_mm2)
-    : power_w_(power_w),
+    : light_(light),
       h_(kernel_radius_mm),
       allowed_(edge_share * tolerance_w_per_mm2),
       bins_(std::max(radii_mm.back(), kernel_radius_mm)) {
@@ -255,7 +264,8 @@ void TubeRings::add(const Tube& tube, std::size_t index) {
   Panel whole{};
   whole.tube = index;
   whole.half_rad = tube.half_width_rad();
-  whole.power = 0.5 * power_w_ * tube.weight * whole.half_rad * kernel_peak_per_mm2(h_);
+  whole.light = light_;
+  whole.power = 0.5 * light_.power_w * tube.weight * whole.half_rad * kernel_peak_per_mm2(h_);
   const std::vector<double> cuts = cuts_of(tube);
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     if (!(cuts[i] < cuts[i + 1])) continue;
@@ -277,7 +287,7 @@ void TubeRings::divide(const Panel& whole, double middle_rad, double low, double
   const double centre_rad = middle_rad + middle * whole.half_rad;
   panel.sine = std::sin(centre_rad);
   const double error = edge_error_of(panel, reach);
-  if (depth < deepest && (reach.most - reach.least > longest_panel ||
+  if (depth < deepest && (is_rough(panel, centre_rad) || reach.most - reach.least > longest_panel ||
                           2 * panel.half_rad > longest_panel_rad || error > allowed_)) {
     divide(whole, middle_rad, low, middle, depth + 1);
     return divide(whole, middle_rad, middle, high, depth + 1);
@@ -289,10 +299,28 @@ void TubeRings::divide(const Panel& whole, double middle_rad, double low, double
   book(reach, error);
 }
 
+/// Whether the nodes do not follow the intensity over a panel that has light to speak of. A whole exponent n
+/// makes waves of at most n a radian; another has no derivatives where the light ends, and is taken in parts
+/// between which the cosine, or its power, falls by less than these factors: eight nodes leave some 1e-10.
+bool TubeRings::is_rough(const Panel& panel, double centre_rad) const {
+  if (light_.law.is_even()) return false;
+  const double n = light_.law.exponent;
+  const double a = light_.up * std::cos(centre_rad - panel.half_rad),
+               b = light_.up * std::cos(centre_rad + panel.half_rad);
+  const double near = std::max(a, b), far = std::max(0.0, std::min(a, b));
+  constexpr double most_turn = 2, most_fall = 0.9, most_power_fall = 4;
+  if (n == std::floor(n) && n * panel.half_rad <= most_turn) return false;
+  const double fall = std::log(near / far);
+  if (fall <= most_fall && n * fall <= most_power_fall) return false;
+  constexpr double no_light = 1e-3;  // of what one end of the kernel may be wrong by
+  return 2 * panel.power * light_.relative(light_.up * near) > no_light * allowed_;
+}
+
 /// What a panel leaves where the kernel ends in it or next to it.
 double TubeRings::edge_error_of(const Panel& panel, const Reach& reach) const {
   const double length = reach.most - reach.least;
-  const double power = 2 * panel.power * std::min(1.0, panel.sine + panel.half_rad);
+  const double most = light_.law.is_even() ? 1 : 2 * (light_.law.exponent + 1);
+  const double power = 2 * panel.power * std::min(1.0, panel.sine + panel.half_rad) * most;
   return edge_error * power * ring_share(reach.least, 1) * length * length * std::sqrt(length);
 }
 

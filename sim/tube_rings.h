@@ -21,7 +21,7 @@ class TubeRings {
   ///        radii apart, can see is kept
   /// @error error_w_per_mm2, by the rule's known error on distance^(5/2): a small share of the tolerance
   /// @cost  some 0.2 us a panel
-  TubeRings(std::span<const Tube> tubes, double power_w, double kernel_radius_mm,
+  TubeRings(std::span<const Tube> tubes, const AxialLight& light, double kernel_radius_mm,
             std::span<const double> radii_mm, double tolerance_w_per_mm2);
 
   /// The field smoothed by the Silverman kernel at some radii, W/mm^2.
@@ -55,6 +55,7 @@ class TubeRings {
     std::size_t tube;     ///< index of the tube
     double centre, half;  ///< x of the tube is centre + half x
     double sign;          ///< of the tube's radius
+    AxialLight light;
     Block nodes;
     double at(double x) const {
       return ring[0] + x * (ring[1] + x * (ring[2] + x * (ring[3] + x * (ring[4] + x * ring[5]))));
@@ -70,11 +71,13 @@ class TubeRings {
  private:
   void add(const Tube& tube, std::size_t index);
   void divide(const Panel& whole, double middle_rad, double low, double high, int depth);
+  bool is_rough(const Panel& panel, double centre_rad) const;
   double edge_error_of(const Panel& panel, const Reach& reach) const;
   bool is_seen(const Reach& reach) const;
   void book(const Reach& reach, double error);
 
-  double power_w_, h_, allowed_;
+  AxialLight light_;
+  double h_, allowed_;
   RadiusBins bins_;
   std::vector<Reach> windows_;  ///< rings that any radius asked for can see
   std::vector<Panel> panels_;

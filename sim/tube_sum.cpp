@@ -88,32 +88,37 @@ AxialEnd axial_end(const Tube& tube) {
   return {};
 }
 
-/// Irradiance of one branch: power sin(theta) / (4 pi rho |slope|).
-double branch_irradiance(double power_w, double theta, double rho, double slope, const AxialEnd& axis) {
+/// Irradiance of one branch: intensity sin(theta) / (rho |slope|).
+double branch_irradiance(const AxialLight& light, double theta, double rho, double slope,
+                         const AxialEnd& axis) {
   const double off = std::abs(theta - axis.polar);
   // Next to the axis rho is odd in the angle, so rho / off is (2 slope(0) + slope) / 3 to the fourth order:
   // 1e-12 here, where rho itself is worth 1e-13 of the part over 1e-3 of it.
   const double ratio = axis.exists && off < 1e-3
                            ? 3 * (off > 0 ? std::sin(off) / off : 1) / (2 * axis.slope + slope)
                            : std::sin(theta) / rho;
-  return power_w / (4 * pi) * std::abs(ratio / slope);
+  const double even = light.power_w / (4 * pi) * std::abs(ratio / slope);
+  return light.law.is_even() ? even : light.relative_at(theta) * even;
 }
 
 /// What a stretch of a tube gives without more rays, and how far that may be off.
 class TubeIrradiance {
  public:
-  TubeIrradiance(const Tube& tube, const Stretch& stretch, double power_w, const AxialEnd& axis)
-      : tube_(tube), stretch_(stretch), power_w_(power_w), axis_(axis) {}
+  TubeIrradiance(const Tube& tube, const Stretch& stretch, const AxialLight& light, const AxialEnd& axis)
+      : tube_(tube), stretch_(stretch), light_(light), axis_(axis) {}
 
   /// Irradiance where the tube lands at `rho`; worst_error grows with it.
   double at(double rho) {
     const double x = place_of(tube_, stretch_, rho), half = tube_.half_width_rad();
     const double slope = tube_.slope(x), theta = tube_.theta_rad(x);
-    const double value = tube_.weight * branch_irradiance(power_w_, theta, rho, slope / half, axis_);
+    const double value = tube_.weight * branch_irradiance(light_, theta, rho, slope / half, axis_);
     const double curve = tube_.curve(x);
     // The place is off by off_mm / slope, which moves the slope and the sine; the slope itself is off, and so
-    // is the sine over the radius next to the axis, where the tube's error falls with the distance.
-    const double share = (2 * tube_.off_slope + 2 * std::abs(curve / slope) * tube_.off_mm) / std::abs(slope);
+    // is the sine over the radius next to the axis, where the tube's error falls with the distance; where the
+    // intensity is not even it moves too.
+    const double share = (2 * tube_.off_slope + 2 * std::abs(curve / slope) * tube_.off_mm +
+                          light_.steepness(theta) * half * tube_.off_mm) /
+                         std::abs(slope);
     worst_error_ = std::max(worst_error_, value * share);
     if (!std::isfinite(value)) worst_error_ = HUGE_VAL;
     return value;
@@ -123,7 +128,7 @@ class TubeIrradiance {
  private:
   const Tube& tube_;
   const Stretch& stretch_;
-  double power_w_;
+  const AxialLight& light_;
   const AxialEnd& axis_;
   double worst_error_ = 0;
 };
@@ -135,8 +140,8 @@ struct Found {
 
 class Polisher {
  public:
-  Polisher(const TubeTracer& tracer, double power_w, int most_rays)
-      : tracer_(tracer), power_w_(power_w), most_rays_(most_rays) {}
+  Polisher(const TubeTracer& tracer, const AxialLight& light, int most_rays)
+      : tracer_(tracer), light_(light), most_rays_(most_rays) {}
 
   /// The branch that lands at `rho` near `theta`.
   Found irradiance(const Tube& tube, const AxialEnd& axis, double theta, double rho) {
@@ -147,7 +152,7 @@ class Polisher {
       const Landing* landing = trace(tube, theta);
       if (landing == nullptr) break;
       before = value;
-      value = tube.weight * branch_irradiance(power_w_, theta, rho, landing->slope_mm_per_rad, axis);
+      value = tube.weight * branch_irradiance(light_, theta, rho, landing->slope_mm_per_rad, axis);
       if (!std::isfinite(value)) return {value, 0};
       const double move = (rho - landing->rho_mm) / landing->slope_mm_per_rad;
       const bool settled = std::abs(move) <= 1e-15 * theta;  // a few roundings of the angle
@@ -172,18 +177,18 @@ class Polisher {
   }
 
   const TubeTracer& tracer_;
-  double power_w_;
+  const AxialLight& light_;
   int most_rays_, rays_ = 0;
   std::vector<Landing> landings_;
 };
 
 class PointwiseAdder {
  public:
-  PointwiseAdder(const TubeTracer& tracer, double power_w, double tolerance, int most_rays,
+  PointwiseAdder(const TubeTracer& tracer, const AxialLight& light, double tolerance, int most_rays,
                  std::span<const double> radii_mm, std::vector<double>& values)
       : tracer_(tracer),
-        polisher_(tracer, power_w, most_rays),
-        power_w_(power_w),
+        polisher_(tracer, light, most_rays),
+        light_(light),
         tolerance_(share * tolerance),
         most_rays_(most_rays),
         radii_(radii_mm),
@@ -212,7 +217,7 @@ class PointwiseAdder {
       }
     }
     for (std::size_t k = 0; axis.exists && k < radii_.size() && radii_[k] <= std::abs(axis.rho); ++k)
-      values_[k] += tube.weight * branch_irradiance(power_w_, axis.polar, 0, axis.slope, axis);
+      values_[k] += tube.weight * branch_irradiance(light_, axis.polar, 0, axis.slope, axis);
     for (std::size_t i = 0; i < bands.size(); ++i) {
       if (sums[i].suffices)
         take(bands[i], sums[i]);
@@ -265,7 +270,7 @@ class PointwiseAdder {
 
   Sum by_tube(const Tube& tube, const Band& band, const AxialEnd& axis) const {
     if (!(tolerance_ > 0)) return {};
-    TubeIrradiance irradiance(tube, band.stretch, power_w_, axis);
+    TubeIrradiance irradiance(tube, band.stretch, light_, axis);
     // Errors are greatest at one end, where branches meet or the axis is near: most tubes fail there at once.
     irradiance.at(band.side * radii_[band.first]);
     irradiance.at(band.side * radii_[band.end - 1]);
@@ -305,7 +310,8 @@ class PointwiseAdder {
 
   const TubeTracer& tracer_;
   Polisher polisher_;
-  double power_w_, tolerance_;
+  const AxialLight& light_;
+  double tolerance_;
   int most_rays_, rays_ = 0;  ///< of halvings
   std::span<const double> radii_;
   std::vector<double>& values_;
@@ -314,9 +320,10 @@ class PointwiseAdder {
 
 }  // namespace
 
-PointwiseSum add_pointwise(const TubeMap& map, const TubeTracer& tracer, double power_w, double tolerance,
-                           int most_rays, std::span<const double> radii_mm, std::vector<double>& values) {
-  PointwiseAdder adder(tracer, power_w, tolerance, most_rays, radii_mm, values);
+PointwiseSum add_pointwise(const TubeMap& map, const TubeTracer& tracer, const AxialLight& light,
+                           double tolerance, int most_rays, std::span<const double> radii_mm,
+                           std::vector<double>& values) {
+  PointwiseAdder adder(tracer, light, tolerance, most_rays, radii_mm, values);
   for (const Tube& tube : map.tubes) adder.add(tube);
   return adder.sum();
 }

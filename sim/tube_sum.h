@@ -17,7 +17,8 @@ struct PointwiseSum {
 /// @in    radii ascending; values as many
 /// @error error_w_per_mm2, the worst radius's sum over branches
 /// @cost  by tubes: some 20 ns a radius and branch; halves take five rays, a polished radius two or three
-PointwiseSum add_pointwise(const TubeMap& map, const TubeTracer& tracer, double power_w, double tolerance,
-                           int most_rays, std::span<const double> radii_mm, std::vector<double>& values);
+PointwiseSum add_pointwise(const TubeMap& map, const TubeTracer& tracer, const AxialLight& light,
+                           double tolerance, int most_rays, std::span<const double> radii_mm,
+                           std::vector<double>& values);
 
 }  // namespace catoptric::sim

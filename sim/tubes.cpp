@@ -23,6 +23,9 @@ void check(const PointSource& source, const Profile& profile, const Material& mi
   if (std::hypot(at.x(), at.y()) > Tolerance::for_scale(profile.diagonal_mm()).length_mm)
     throw InputError(
         {"the source is off the axis", "tubes", "tubes lie in one meridian plane", "take the photon rung"});
+  if (source.tilt_rad() > Tolerance::for_scale(profile.diagonal_mm()).angle_rad)
+    throw InputError({"the source's axis is tilted", "tubes",
+                      "its light must be alike all round the mirror's", "take the photon rung"});
   if (auto defect = find_defect(mirror)) {
     defect->where = "mirror";
     throw InputError(std::move(*defect));
@@ -48,9 +51,9 @@ double least_weight(double power_w, const TubesOptions& options) {
 constexpr double rays_share = 0.7, interpolation_share = 0.2;
 
 /// The smoothed field by rings, computed at few radii and interpolated between them.
-RadialValues smoothed(const TubeMap& map, double power_w, double h, std::span<const double> radii_mm,
+RadialValues smoothed(const TubeMap& map, const AxialLight& light, double h, std::span<const double> radii_mm,
                       double tolerance) {
-  const TubeRings rings(map.tubes, power_w, h, radii_mm, tolerance);
+  const TubeRings rings(map.tubes, light, h, radii_mm, tolerance);
   const RadialFunction function{
       1, [&](std::span<const double> at, std::span<double> values) { rings.smoothed(at, values); }};
   const double allowed[] = {interpolation_share * tolerance};
@@ -77,8 +80,9 @@ TubeMap map_for(const TubeTracer& tracer, const PointSource& source, const Profi
   const double r_max =
       std::max(radii.distinct_mm.back(), Tolerance::for_scale(profile.diagonal_mm()).lift_mm);
   // Rays may use most of the tolerance; rings and interpolation are cheap and get the rest.
+  const AxialLight light = AxialLight::of(source);
   return make_tubes(
-      tracer, emission_breaks(profile, source.position_mm().z()), source.power_w(),
+      tracer, light.lit(emission_breaks(profile, source.position_mm().z())), light,
       {r_max, options.kernel_radius_mm, rays_share * options.tolerance_w_per_mm2, options.most_rays});
 }
 
@@ -91,7 +95,8 @@ TubesField tubes_field(const PointSource& source, const Profile& profile, const 
   if (radii_mm.empty() || source.power_w() <= 0) return field;
 
   const FieldRadii radii(radii_mm);
-  const double power_w = source.power_w(), h = options.kernel_radius_mm;
+  const double h = options.kernel_radius_mm;
+  const AxialLight light = AxialLight::of(source);
   const TubeMap map = map_for(tracer, source, profile, radii, options);
   field.error_w_per_mm2 = map.error_w_per_mm2;
   field.rays = map.rays;
@@ -100,11 +105,11 @@ TubesField tubes_field(const PointSource& source, const Profile& profile, const 
 
   std::vector<double> values(radii.distinct_mm.size(), 0.0);
   if (h > 0) {
-    RadialValues smooth = smoothed(map, power_w, h, radii.distinct_mm, options.tolerance_w_per_mm2);
+    RadialValues smooth = smoothed(map, light, h, radii.distinct_mm, options.tolerance_w_per_mm2);
     field.error_w_per_mm2 += smooth.error[0];
     values = std::move(smooth.values);
   } else {
-    const PointwiseSum sum = add_pointwise(map, tracer, power_w, options.pointwise_tolerance_w_per_mm2,
+    const PointwiseSum sum = add_pointwise(map, tracer, light, options.pointwise_tolerance_w_per_mm2,
                                            options.most_rays - map.rays, radii.distinct_mm, values);
     field.error_w_per_mm2 = sum.error_w_per_mm2;
     field.rays += sum.rays;
@@ -129,10 +134,14 @@ TubesField tubes_field(const Scene& scene, std::span<const FieldSample> samples,
 std::optional<std::string> tubes_objection(const Source& source, const Profile& profile,
                                            const NearField& near_field) {
   const Tolerance tolerance = Tolerance::for_scale(profile.diagonal_mm());
-  if (dynamic_cast<const PointSource*>(&source) == nullptr) return "the source is not a point";
+  if (source.extent_mm() > 0) return "the source is extended";
+  if (dynamic_cast<const PointSource*>(&source) == nullptr)
+    return "the source's intensity is no power of a cosine";
   const Vector3 at = source.position_mm();
   const double off_mm = std::hypot(at.x(), at.y());
   if (off_mm > tolerance.length_mm) return fmt::format("the source is {} mm off the axis", off_mm);
+  if (source.tilt_rad() > tolerance.angle_rad)
+    return fmt::format("the source's axis is tilted by {} rad", source.tilt_rad());
   const Vector3& normal = near_field.normal();
   if (std::hypot(normal.x(), normal.y()) > tolerance.angle_rad)
     return fmt::format("the near field is tilted against the axis by {} rad",

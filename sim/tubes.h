@@ -31,17 +31,19 @@ struct TubesField {
   double cut_off_w = 0;            ///< power on paths stopped after most_interactions
 };
 
-/// Rung "tubes": a point source on the axis, a specular mirror of revolution, light registered on a plane
-/// across the axis. No random numbers.
+/// Rung "tubes": a point source on the axis, its own axis along it, a specular mirror of revolution, light
+/// registered on a plane across the axis. No random numbers.
 ///
 /// Rays of one meridian carry the derivative of their landing radius rho by the emission angle theta through
 /// every bounce. Pointwise the irradiance is the sum over all branches of
-/// power / (4 pi) * sin(theta) / (rho |d rho / d theta|), from the tubes where they are within the tolerance,
-/// else polished by rays of its own. Smoothed, it is what the photon rung expects with the same fixed kernel
-/// radius: the power of each tube, spread over its rings, under the Silverman kernel; folds and the axis,
-/// where the pointwise field is infinite, are as exact as the rest. Many radii are interpolated from few.
+/// intensity(theta) * sin(theta) / (rho |d rho / d theta|), from the tubes where they are within the
+/// tolerance, else polished by rays of its own. Smoothed, it is what the photon rung expects with the same
+/// fixed kernel radius: the power of each tube, spread over its rings, under the Silverman kernel; folds and
+/// the axis, where the pointwise field is infinite, are as exact as the rest. Many radii are interpolated
+/// from few.
 /// @in    source on the axis (tubes_objection); radii not negative
-/// @fails InputError for a source off the axis, a bad material, a negative kernel radius, most_rays below 100
+/// @fails InputError for a source off the axis or tilted against it, a bad material, a negative kernel
+/// radius, most_rays below 100
 /// @error error_w_per_mm2: by rays that the tubes do not use, by the rings' rule, by the interpolation's
 ///        coefficients; polished pointwise 1e-12 of the value or the change by the last polishing
 /// @cost  about 0.4 us a ray and bounce; 28 rays for 1e-6 W/m^2 on the paraboloid, 70 to 160 on the paper's

@@ -28,7 +28,7 @@ struct BranchEnd {
 };
 
 /// Which of the tubes' ends are ends of their branch.
-std::vector<BranchEnd> branch_ends(const std::vector<Tube>& tubes, double power_w) {
+std::vector<BranchEnd> branch_ends(const std::vector<Tube>& tubes, const AxialLight& light) {
   constexpr double gap_rad = 1e-12;  // knots leave a gap of some roundings
   const auto joined = [&](const Tube& before, const Tube& after) {
     return before.path == after.path && std::abs(after.first_rad - before.last_rad) < gap_rad;
@@ -36,9 +36,10 @@ std::vector<BranchEnd> branch_ends(const std::vector<Tube>& tubes, double power_
   std::vector<bool> continued(tubes.size());
   std::vector<BranchEnd> ends;
   const auto add = [&](const Tube& tube, double theta, double outwards, double rho) {
-    // Along the axis there is no light to lose.
-    if (std::sin(theta) < 1e-9) return;
-    ends.push_back({theta, outwards, rho, 0.5 * power_w * tube.weight * std::sin(theta)});
+    // Along the axis there is no light to lose, nor at the angle where the source's own light ends.
+    if (std::sin(theta) < 1e-9 || (!light.law.is_even() && std::abs(std::cos(theta)) < 1e-9)) return;
+    ends.push_back({theta, outwards, rho,
+                    0.5 * light.power_w * light.relative_at(theta) * tube.weight * std::sin(theta)});
   };
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     bool begins = true;
@@ -142,11 +143,12 @@ TubesJacobian tubes_jacobian(const PointSource& source, const Profile& profile, 
   if (radii_mm.empty() || source.power_w() <= 0) return result;
 
   const FieldRadii radii(radii_mm);
-  const double power_w = source.power_w(), h = options.kernel_radius_mm, z = source.position_mm().z();
+  const AxialLight light = AxialLight::of(source);
+  const double h = options.kernel_radius_mm, z = source.position_mm().z();
   const TubeTracer paths = tracer_for(source, profile, mirror, plane, options);
   const TubeMap map = map_for(paths, source, profile, radii, options);
-  const TubeRings rings(map.tubes, power_w, h, radii.distinct_mm, options.tolerance_w_per_mm2);
-  const std::vector<BranchEnd> ends = branch_ends(map.tubes, power_w);
+  const TubeRings rings(map.tubes, light, h, radii.distinct_mm, options.tolerance_w_per_mm2);
+  const std::vector<BranchEnd> ends = branch_ends(map.tubes, light);
 
   std::vector<std::vector<TubeMotions::Rows>> motions;
   std::vector<std::vector<Jet::Row>> edges;
