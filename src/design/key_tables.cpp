@@ -105,6 +105,17 @@ const std::vector<Key>& scene_table() {
       {.path = "search.most_evaluations", .type = integer, .least = 1, .greatest = 1e9, .standard = "2000", .meaning = "the search ends after so many evaluations"},
       {.path = "search.most_iterations", .type = integer, .least = 1, .greatest = 1e9, .standard = "1000", .meaning = "the search ends after so many iterations"},
 
+      {.path = "constraints.rim_radius_min", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "least radius of the rim, where the generatrix ends"},
+      {.path = "constraints.rim_radius_max", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "greatest radius of the rim"},
+      {.path = "constraints.height_max", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "greatest extent along the axis"},
+      {.path = "constraints.opening_min", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "radius about the axis that stays free, for the lamp and its neck"},
+      {.path = "constraints.envelope_radius", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "greatest radius of any part"},
+      {.path = "constraints.envelope_z", .type = numbers, .quantity = Q::length, .least = -far, .greatest = far, .count = 2, .meaning = "least and greatest z of any part"},
+      {.path = "constraints.curvature_radius_min", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "least radius of curvature of the generatrix; a corner has none"},
+      {.path = "constraints.draft_angle_min", .type = number, .least = 0, .greatest = 90, .meaning = "least angle between wall and axis, in degrees: the part leaves a mould along the axis"},
+      {.path = "constraints.wall", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "a wall of this thickness, on the side of reflector.wall_side, must not fold"},
+      {.path = "constraints.no_folds", .type = boolean, .meaning = "true: the generatrix does not cross itself, and from apex to rim first reflections land ever farther out or ever farther in"},
+
       {.path = "variables.*.start", .type = number, .least = -far, .greatest = far, .meaning = "first value; the reflector's own when left out"},
       {.path = "variables.*.step", .type = number, .least = 0, .greatest = far, .least_excluded = true, .meaning = "first step"},
       {.path = "variables.*.lower", .type = number, .least = -far, .greatest = far, .meaning = "least value allowed"},

@@ -40,11 +40,14 @@ std::vector<double> starts(const std::vector<optim::Variable>& variables) {
   return list;
 }
 
-/// The objective of one design vector on the search's stream; infinity where no mirror can be built.
+/// The objective of one design vector on the search's stream; infinity where no mirror can be built, and from
+/// infeasible_floor on where it breaks constraints.
 double value_at(const Scene& scene, sim::Rung rung, const Target& target, const ProfileFamily& family,
                 std::span<const double> x) {
   const auto profile = family.at(x);
   if (!profile) return std::numeric_limits<double>::infinity();
+  if (const double broken = violation(scene.constraints, *profile); broken > 0)
+    return infeasible_objective(broken);
   return objective(scene, total_by_rung(scene, rung, *profile, target.samples, search_stream),
                    target.irradiance_w_per_mm2);
 }
@@ -59,7 +62,7 @@ void need_target(const Scene& scene, const char* command) {
   if (scene.target.kind == TargetKind::none)
     throw scene.settings.error("target.kind", "there is nothing to aim at",
                                std::string(command) + " compares the light with a target",
-                               "target.kind = \"paraboloid\", \"reflector\" or \"csv\"");
+                               "target.kind = \"uniform\" with radius and irradiance, or another kind");
 }
 
 void need_light(const Scene& scene, const Target& target) {
@@ -92,7 +95,7 @@ optim::Outcome search(const Scene& scene, sim::Rung rung, const Target& target, 
   optim::Problem problem{scene.variables, [&](std::span<const double> x) {
                            const double value = value_at(scene, rung, target, family, x);
                            ++evaluations;
-                           if (std::isnan(best) || value < best) best = value;
+                           if (value < infeasible_floor && !(value >= best)) best = value;
                            control.tell({"search", share, best, evaluations});
                            return value;
                          }};
@@ -137,7 +140,7 @@ DesignResult run_design(const Scene& scene, const RunControl& control) {
   const double search_seconds = watch.seconds();
   const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
   const Profile best = family.at(outcome.best).value_or(start);
-  control.tell({"verify", 1.0, outcome.value, outcome.evaluations});
+  control.tell({"verify", 1.0, outcome.value < infeasible_floor ? outcome.value : NAN, outcome.evaluations});
   Judgement start_judgement = judge(scene, target, start, sim::Rung::photons, verdict_stream);
   Judgement best_judgement = scene.accuracy_rel
                                  ? judge_to_accuracy(scene, make_sharp_target(scene), best, verdict_stream,
@@ -149,8 +152,8 @@ DesignResult run_design(const Scene& scene, const RunControl& control) {
   return {std::move(target),
           std::move(plan),
           outcome,
-          {start, starts(scene.variables), std::move(start_judgement)},
-          {best, outcome.best, std::move(best_judgement)},
+          {start, starts(scene.variables), std::move(start_judgement), states(scene.constraints, start)},
+          {best, outcome.best, std::move(best_judgement), states(scene.constraints, best)},
           photons,
           search_seconds,
           watch.seconds()};
@@ -177,7 +180,7 @@ SimulationResult run_simulation(const Scene& scene, const RunControl& control) {
   const std::uint64_t photons = emitted(judgement);
   return {std::move(target),
           std::move(plan),
-          {profile, starts(scene.variables), std::move(judgement)},
+          {profile, starts(scene.variables), std::move(judgement), states(scene.constraints, profile)},
           photons,
           watch.seconds()};
 }
@@ -212,8 +215,9 @@ Landscape run_landscape(const Scene& scene, const RunControl& control) {
       std::vector<double> x{a};
       if (result.axes.size() > 1) x.push_back(b);
       const double value = value_at(scene, rung, target, family, x);
-      result.objective.push_back(std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN());
-      if (std::isnan(best) || value < best) best = value;
+      const bool allowed = value < infeasible_floor;
+      result.objective.push_back(allowed ? value : std::numeric_limits<double>::quiet_NaN());
+      if (allowed && !(value >= best)) best = value;
       control.tell({"landscape", static_cast<double>(result.objective.size()) / points, best,
                     static_cast<long>(result.objective.size())});
     }

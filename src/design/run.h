@@ -37,6 +37,7 @@ struct Judged {
   Profile profile;
   std::vector<double> variables;  ///< in the order and units of scene.variables
   Judgement judgement;
+  std::vector<ConstraintState> constraints;  ///< how it stands to the scene's
 };
 
 /// What `design` found.
@@ -72,7 +73,7 @@ SimulationResult run_simulation(const Scene& scene, const RunControl& control);
 struct Landscape {
   std::vector<std::string> names;
   std::vector<std::vector<double>> axes;  ///< values of each variable
-  std::vector<double> objective;          ///< NaN where no mirror can be built
+  std::vector<double> objective;          ///< NaN where no mirror can be built or constraints are broken
   double seconds = 0;
 };
 Landscape run_landscape(const Scene& scene, const RunControl& control);

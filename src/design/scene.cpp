@@ -9,6 +9,7 @@
 
 #include "base/tolerance.h"
 #include "base/units.h"
+#include "design/constraint_settings.h"
 #include "design/scene_defaults.h"
 #include "design/tailored_settings.h"
 #include "design/target_settings.h"
@@ -254,6 +255,7 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
   std::vector<optim::Variable> decision = variables(settings, base, unit);
   std::optional<LandscapeSpec> drawn = landscape(settings, base);
   const sim::Material mirror = material(settings, "reflector");
+  const Constraints bounds = read_constraints(settings, unit_mm, source.position_mm, field);
   Scene scene{.settings = {},
               .title = *settings.text("title"),
               .unit = unit,
@@ -270,6 +272,7 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
               .tailored = tailored(settings, unit_mm),
               .model = model(settings, unit_mm),
               .search = search(settings),
+              .constraints = bounds,
               .variables = std::move(decision),
               .landscape = std::move(drawn),
               .tradeoff = tradeoff(settings),

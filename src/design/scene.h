@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "cad/engines.h"
 #include "cad/export.h"
+#include "design/constraints.h"
 #include "design/settings.h"
 #include "design/tailored_curve.h"
 #include "optim/problem.h"
@@ -111,6 +112,7 @@ struct Scene {
   TailoredSpec tailored;
   ModelSpec model;
   SearchSpec search;
+  Constraints constraints;
   std::vector<optim::Variable> variables;  ///< lengths in the scene's unit
   std::optional<LandscapeSpec> landscape;
   TradeoffSpec tradeoff;
