@@ -45,6 +45,7 @@ ExitCode simulate_command(const CommonOptions& options);
 ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions& more);
 ExitCode explain_command(const CommonOptions& options);
 ExitCode tradeoff_command(const CommonOptions& options);
+ExitCode sensitivity_command(const CommonOptions& options);
 ExitCode study_command(const CommonOptions& options);
 ExitCode profile_command(const CommonOptions& options, const ProfileOptions& more);
 ExitCode export_command(const CommonOptions& options, const ExportCommandOptions& more);

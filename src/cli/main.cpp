@@ -98,6 +98,12 @@ struct Parser {
         *app.add_subcommand("tradeoff", "Measures what accuracy costs on this scene: time against error")
              ->footer("Example: catoptric tradeoff data/paper/paraboloid.toml --out out/trade"),
         common, "SCENE.toml");
+    add_common(
+        *app.add_subcommand("sensitivity",
+                            "How the light changes with what may be wrong; tolerances for the maker")
+             ->footer(
+                 "Example: catoptric sensitivity data/paper/paraboloid.toml --set sensitivity.allowed=0.05"),
+        common, "SCENE.toml");
     add_common(*app.add_subcommand("study", "Runs a list of variations of a scene and prints one table")
                     ->footer("Example: catoptric study data/paper/table2.toml --out out/table2"),
                common, "STUDY.toml");
@@ -109,6 +115,7 @@ struct Parser {
     if (app.got_subcommand("explain")) return explain_command(common);
     if (app.got_subcommand("landscape")) return landscape_command(common, landscape);
     if (app.got_subcommand("tradeoff")) return tradeoff_command(common);
+    if (app.got_subcommand("sensitivity")) return sensitivity_command(common);
     if (app.got_subcommand("profile")) return profile_command(common, profile);
     if (app.got_subcommand("export")) return export_command(common, shape);
     return study_command(common);

@@ -132,6 +132,9 @@ const std::vector<Key>& scene_table() {
       {.path = "tradeoff.most_photons", .type = integer, .least = 1000, .greatest = 1e9, .standard = "1000000", .meaning = "photons of the dearest settings; a reference by photons may take 50 times as many"},
       {.path = "tradeoff.reference_accuracy", .type = number, .least = 0, .greatest = 1, .least_excluded = true, .standard = "0.0002", .meaning = "relative error aimed at in a reference without closed form"},
 
+      {.path = "sensitivity.allowed", .type = number, .least = 1e-6, .greatest = 1, .standard = "0.02", .meaning = "change of the field that each tolerance of the maker's table may cost: root mean square over the samples, relative to the field's own"},
+      {.path = "sensitivity.modes", .type = integer, .least = 0, .greatest = 12, .standard = "4", .meaning = "profile errors are cosines over the generatrix' length, of 0 to so many half waves"},
+
       {.path = "export.unit", .type = choice, .choices = {"mm", "cm", "m", "in"}, .standard = "\"mm\"", .meaning = "unit of length inside exchange files"},
       {.path = "export.step_schema", .type = choice, .choices = {"ap203", "ap214", "ap242"}, .standard = "\"ap214\"", .meaning = "STEP application protocol"},
       {.path = "export.iges_mode", .type = choice, .choices = {"faces", "brep"}, .standard = "\"faces\"", .meaning = "IGES entities: trimmed surfaces (144) or boundary representation (186)"},

@@ -276,6 +276,8 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
               .variables = std::move(decision),
               .landscape = std::move(drawn),
               .tradeoff = tradeoff(settings),
+              .sensitivity = {*settings.number("sensitivity.allowed"),
+                              static_cast<int>(*settings.integer("sensitivity.modes"))},
               .export_options = export_options(settings, unit_mm)};
   scene.settings = std::move(settings);
   return scene;

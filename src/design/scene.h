@@ -94,6 +94,12 @@ struct TailoredSpec {
   std::size_t points;
 };
 
+/// What `sensitivity` asks.
+struct SensitivitySpec {
+  double allowed_rel;  ///< change of the field that a tolerance may cost
+  int modes;           ///< greatest number of half waves of a profile error
+};
+
 /// A scene, checked, in mm, W and rad; variables keep the scene's unit, which is what people read and write.
 struct Scene {
   Settings settings;  ///< every key with its value, defaults included: what scene.toml holds
@@ -116,6 +122,7 @@ struct Scene {
   std::vector<optim::Variable> variables;  ///< lengths in the scene's unit
   std::optional<LandscapeSpec> landscape;
   TradeoffSpec tradeoff;
+  SensitivitySpec sensitivity;
   cad::ExportOptions export_options;
 
   double to_scene_unit(double mm) const { return mm / millimetres_per(unit); }
