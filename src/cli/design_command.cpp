@@ -12,6 +12,7 @@ namespace {
 ExitCode exit_code(optim::Ending ending) {
   switch (ending) {
     case optim::Ending::converged:
+    case optim::Ending::target_reached:
       return ExitCode::done;
     case optim::Ending::stopped:
       return ExitCode::interrupted;

@@ -49,12 +49,16 @@ bool accuracy_missed(const report::StudyRow& row) {
   return accuracy && !accuracy->proven;
 }
 
+bool ended_well(optim::Ending ending) {
+  return ending == optim::Ending::converged || ending == optim::Ending::target_reached;
+}
+
 ExitCode exit_code(const std::vector<report::StudyRow>& rows, bool interrupted) {
   if (interrupted) return ExitCode::interrupted;
   ExitCode code = ExitCode::done;
   for (const report::StudyRow& row : rows) {
     if (!row.error.empty()) return ExitCode::geometry_or_exchange;
-    if (row.designed && row.designed->search.ending != optim::Ending::converged) code = ExitCode::unconverged;
+    if (row.designed && !ended_well(row.designed->search.ending)) code = ExitCode::unconverged;
     if (accuracy_missed(row)) code = ExitCode::unconverged;
   }
   return code;

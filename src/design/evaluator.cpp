@@ -32,13 +32,9 @@ sim::PhotonOptions photon_options(const Scene& scene, std::uint64_t stream) {
 std::optional<std::vector<double>> reflected_by_tubes(const Scene& scene, const sim::Scene& stage,
                                                       std::span<const sim::FieldSample> samples,
                                                       double kernel_radius_mm) {
-  sim::TubesOptions options;
-  options.kernel_radius_mm = kernel_radius_mm;
-  options.most_interactions = scene.model.photons.most_interactions;
-  options.tolerance_w_per_mm2 = tubes_tolerance_rel * scene.source.power_w / scene.near_field.area_mm2();
-  options.most_rays = most_tube_rays;
+  const sim::TubesOptions options = tubes_options(scene, kernel_radius_mm);
   sim::TubesField tubes = sim::tubes_field(stage, samples, options);
-  if (!(tubes.error_w_per_mm2 <= tubes_accepted * options.tolerance_w_per_mm2)) return std::nullopt;
+  if (!believed(tubes, options)) return std::nullopt;
   return std::move(tubes.irradiance);
 }
 
@@ -100,6 +96,19 @@ Evaluation evaluate_by_rings(const Scene& scene, const Stage& stage,
 }
 
 }  // namespace
+
+sim::TubesOptions tubes_options(const Scene& scene, double kernel_radius_mm) {
+  sim::TubesOptions options;
+  options.kernel_radius_mm = kernel_radius_mm;
+  options.most_interactions = scene.model.photons.most_interactions;
+  options.tolerance_w_per_mm2 = tubes_tolerance_rel * scene.source.power_w / scene.near_field.area_mm2();
+  options.most_rays = most_tube_rays;
+  return options;
+}
+
+bool believed(const sim::TubesField& field, const sim::TubesOptions& options) {
+  return field.error_w_per_mm2 <= tubes_accepted * options.tolerance_w_per_mm2;
+}
 
 sim::Plan make_plan(const Scene& scene, const Profile& profile) {
   const Stage stage(scene, profile);

@@ -5,6 +5,7 @@
 
 #include "design/scene.h"
 #include "sim/simulation.h"
+#include "sim/tubes.h"
 
 namespace catoptric::design {
 
@@ -16,6 +17,11 @@ sim::Plan make_plan(const Scene& scene, const Profile& profile);
 /// they also stand in where tubes cannot meet their error bound (cavities with very many paths).
 std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
                                   std::span<const sim::FieldSample> samples, std::uint64_t stream);
+
+/// What ray tubes are asked for in this scene, with a kernel of that radius; and whether their error is small
+/// enough to go on with.
+sim::TubesOptions tubes_options(const Scene& scene, double kernel_radius_mm);
+bool believed(const sim::TubesField& field, const sim::TubesOptions& options);
 
 /// The light of one mirror by one set of random numbers, or by none, W/mm^2 at the samples.
 struct Evaluation {

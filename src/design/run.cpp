@@ -7,15 +7,13 @@
 #include <limits>
 
 #include "design/evaluator.h"
+#include "design/search.h"
 #include "design/stage.h"
 #include "design/variables.h"
-#include "optim/hooke_jeeves.h"
 
 namespace catoptric::design {
 namespace {
 
-/// All evaluations of one search share this stream; verdicts come from the ones after it.
-constexpr std::uint64_t search_stream = 0;
 constexpr std::uint64_t verdict_stream = 1;
 
 class Stopwatch {
@@ -27,36 +25,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
-
-std::vector<std::string> names(const std::vector<optim::Variable>& variables) {
-  std::vector<std::string> list;
-  for (const auto& variable : variables) list.push_back(variable.name);
-  return list;
-}
-
-std::vector<double> starts(const std::vector<optim::Variable>& variables) {
-  std::vector<double> list;
-  for (const auto& variable : variables) list.push_back(variable.start);
-  return list;
-}
-
-/// The objective of one design vector on the search's stream; infinity where no mirror can be built, and from
-/// infeasible_floor on where it breaks constraints.
-double value_at(const Scene& scene, sim::Rung rung, const Target& target, const ProfileFamily& family,
-                std::span<const double> x) {
-  const auto profile = family.at(x);
-  if (!profile) return std::numeric_limits<double>::infinity();
-  if (const double broken = violation(scene.constraints, *profile); broken > 0)
-    return infeasible_objective(broken);
-  return objective(scene, total_by_rung(scene, rung, *profile, target.samples, search_stream),
-                   target.irradiance_w_per_mm2);
-}
-
-/// Share of a pattern search that is done, by the step: it must be halved so many times in all.
-double share_done(const Scene& scene, double step) {
-  const double share = std::log(step) / std::log(scene.search.smallest_step);
-  return std::isfinite(share) ? std::min(1.0, std::max(0.0, share)) : 0.0;
-}
 
 void need_target(const Scene& scene, const char* command) {
   if (scene.target.kind == TargetKind::none)
@@ -86,31 +54,6 @@ std::function<bool(std::uint64_t, double)> watch_accuracy(const Scene& scene, co
                   fmt::format("{} photons: relative error at most {:.2g}", photons, error95_rel)});
     return !control.stopped();
   };
-}
-
-optim::Outcome search(const Scene& scene, sim::Rung rung, const Target& target, const RunControl& control) {
-  const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
-  long evaluations = 0;
-  double best = std::numeric_limits<double>::quiet_NaN(), share = 0;
-  optim::Problem problem{scene.variables, [&](std::span<const double> x) {
-                           const double value = value_at(scene, rung, target, family, x);
-                           ++evaluations;
-                           if (value < infeasible_floor && !(value >= best)) best = value;
-                           control.tell({"search", share, best, evaluations});
-                           return value;
-                         }};
-  optim::HookeJeevesOptions options;
-  options.acceleration = scene.search.acceleration;
-  options.reduction = scene.search.reduction;
-  options.smallest_step = scene.search.smallest_step;
-  options.most_evaluations = scene.search.most_evaluations;
-  options.most_iterations = scene.search.most_iterations;
-  options.progress = [&](const optim::Iterate& iterate) {
-    share = share_done(scene, iterate.step);
-    return true;
-  };
-  options.stop_requested = [&] { return control.stopped(); };
-  return optim::hooke_jeeves(problem, options);
 }
 
 }  // namespace

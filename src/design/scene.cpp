@@ -115,14 +115,20 @@ ModelSpec model(const Settings& settings, double unit_mm) {
   return spec;
 }
 
-SearchSpec search(const Settings& settings) {
+SearchSpec search(const Settings& settings, double unit_mm) {
+  Numbers kernels_mm = settings.numbers("search.kernels").value_or(Numbers{});
+  for (double& kernel : kernels_mm) kernel *= unit_mm;
   return {*settings.text("search.method"),
           settings.text("search.metric") == "relative-rmse" ? Metric::relative_rmse : Metric::rmse,
           *settings.number("search.acceleration"),
           *settings.number("search.reduction"),
           *settings.number("search.smallest_step"),
           static_cast<long>(*settings.integer("search.most_evaluations")),
-          static_cast<long>(*settings.integer("search.most_iterations"))};
+          static_cast<long>(*settings.integer("search.most_iterations")),
+          static_cast<int>(*settings.integer("search.population")),
+          static_cast<long>(*settings.integer("search.restarts")),
+          settings.number("search.reach"),
+          std::move(kernels_mm)};
 }
 
 /// Decision variables in the order of the design vector, not of the file.
@@ -271,7 +277,7 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
               .target = std::move(desired),
               .tailored = tailored(settings, unit_mm),
               .model = model(settings, unit_mm),
-              .search = search(settings),
+              .search = search(settings, unit_mm),
               .constraints = bounds,
               .variables = std::move(decision),
               .landscape = std::move(drawn),

@@ -67,6 +67,10 @@ struct SearchSpec {
   Metric metric;
   double acceleration, reduction, smallest_step;
   long most_evaluations, most_iterations;
+  int population;                  ///< 0: what suits the method
+  long restarts;                   ///< from elsewhere in the box, after the first search
+  std::optional<double> reach;     ///< in the metric's unit
+  std::vector<double> kernels_mm;  ///< radii of kernels to search with before the model's own
 };
 
 struct LandscapeSpec {

@@ -108,6 +108,7 @@ std::string version() { return CATOPTRIC_VERSION " (" CATOPTRIC_COMMIT ")"; }
 std::string outcome_word(optim::Ending ending) {
   switch (ending) {
     case optim::Ending::converged:
+    case optim::Ending::target_reached:
       return "converged";
     case optim::Ending::stopped:
       return "interrupted";
@@ -126,11 +127,9 @@ Json result_json(const design::Scene& scene, const design::DesignResult& result)
   json.update(judged_json(scene, result.best));
   json["search_value"] = result.search.value;
   json["start"] = judged_json(scene, result.start);
-  json["counts"] = {{"iterations", result.search.iterations},
-                    {"successes", result.search.successes},
-                    {"evaluations", result.search.evaluations},
-                    {"cache_hits", result.search.cache_hits},
-                    {"photons", result.photons}};
+  json["counts"] = {{"iterations", result.search.iterations},   {"successes", result.search.successes},
+                    {"evaluations", result.search.evaluations}, {"cache_hits", result.search.cache_hits},
+                    {"restarts", result.search.restarts},       {"photons", result.photons}};
   json["seconds"] = result.seconds;
   json.update(run_json(scene, result.plan.rung));
   json["seconds_search"] = result.search_seconds;

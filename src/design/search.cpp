@@ -1,0 +1,116 @@
+#include "design/search.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "design/constraints.h"
+#include "design/evaluator.h"
+#include "design/search_methods.h"
+
+namespace catoptric::design {
+namespace {
+
+/// The scene with another kernel, beginning at x.
+Scene with_kernel(const Scene& scene, double radius_mm, const std::vector<double>& x, long most_evaluations) {
+  Scene stage = scene;
+  stage.model.estimate.neighbours.reset();
+  stage.model.estimate.kernel_radius_mm = radius_mm;
+  stage.search.most_evaluations = most_evaluations;
+  for (std::size_t i = 0; i < x.size(); ++i) stage.variables[i].start = x[i];
+  return stage;
+}
+
+/// Adds a stage to those before; the values are the stage's own.
+void append(optim::Outcome& all, optim::Outcome stage, const std::string& kernel) {
+  for (optim::Iterate& each : stage.history) {
+    each.k += all.successes;
+    each.iteration += all.iterations;
+    each.evaluations += all.evaluations;
+    each.move += ", " + kernel;
+    all.history.push_back(std::move(each));
+  }
+  all.successes += stage.successes;
+  all.iterations += stage.iterations;
+  all.evaluations += stage.evaluations;
+  all.cache_hits += stage.cache_hits;
+  all.restarts += stage.restarts;
+  all.ending = stage.ending;
+  all.sentence = std::move(stage.sentence);
+  all.best = std::move(stage.best);
+  all.value = stage.value;
+}
+
+/// A wide kernel shows few local minima, so each stage ends near the next one's best.
+/// @from graduated optimization: Blake & Zisserman 1987
+optim::Outcome search_coarse_to_fine(const Scene& scene, sim::Rung rung, const Target& target,
+                                     const RunControl& control) {
+  const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
+  optim::Outcome all{};
+  all.best = starts(scene.variables);
+  all.start_value = value_at(scene, rung, target, family, all.best);
+  all.evaluations = 1;
+  const std::vector<double> start = all.best;
+  const std::size_t stages = scene.search.kernels_mm.size() + 1;
+  for (std::size_t i = 0; i < stages && !control.stopped(); ++i) {
+    const bool last = i + 1 == stages;
+    const long left = scene.search.most_evaluations - all.evaluations;
+    const long share = std::max(1L, left / static_cast<long>(stages - i));
+    if (last) {
+      Scene stage = scene;
+      stage.search.most_evaluations = share;
+      for (std::size_t j = 0; j < all.best.size(); ++j) stage.variables[j].start = all.best[j];
+      append(all, search_once(stage, rung, target, control), "own kernel");
+    } else {
+      const Scene stage = with_kernel(scene, scene.search.kernels_mm[i], all.best, share);
+      append(all, search_once(stage, rung, blurred_target(stage), control),
+             fmt::format("kernel {:.6g} {}", scene.to_scene_unit(scene.search.kernels_mm[i]),
+                         symbol(scene.unit)));
+    }
+  }
+  if (control.stopped()) {  // in whatever stage: its value is no figure of this scene
+    all.ending = optim::Ending::stopped;
+    all.sentence = "stopped on request";
+    all.value = value_at(scene, rung, target, family, all.best);
+    ++all.evaluations;
+  }
+  if (!(all.value <= all.start_value)) {
+    all.best = start;
+    all.value = all.start_value;
+    all.sentence += "; all of it worse than the start";
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> names(const std::vector<optim::Variable>& variables) {
+  std::vector<std::string> list;
+  for (const auto& variable : variables) list.push_back(variable.name);
+  return list;
+}
+
+std::vector<double> starts(const std::vector<optim::Variable>& variables) {
+  std::vector<double> list;
+  for (const auto& variable : variables) list.push_back(variable.start);
+  return list;
+}
+
+double value_at(const Scene& scene, sim::Rung rung, const Target& target, const ProfileFamily& family,
+                std::span<const double> x) {
+  const auto profile = family.at(x);
+  if (!profile) return std::numeric_limits<double>::infinity();
+  if (const double broken = violation(scene.constraints, *profile); broken > 0)
+    return infeasible_objective(broken);
+  return objective(scene, total_by_rung(scene, rung, *profile, target.samples, search_stream),
+                   target.irradiance_w_per_mm2);
+}
+
+optim::Outcome search(const Scene& scene, sim::Rung rung, const Target& target, const RunControl& control) {
+  if (scene.search.method == "levenberg-marquardt") require_fit(scene, rung);
+  if (!scene.search.kernels_mm.empty()) return search_coarse_to_fine(scene, rung, target, control);
+  return search_once(scene, rung, target, control);
+}
+
+}  // namespace catoptric::design

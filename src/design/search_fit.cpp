@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "design/evaluator.h"
+#include "design/search.h"
+#include "design/search_methods.h"
+#include "design/stage.h"
+#include "sim/rings.h"
+#include "sim/simulation.h"
+#include "sim/tubes_jacobian.h"
+
+namespace catoptric::design {
+namespace {
+
+/// Everything about the fit that no design vector changes.
+struct Fit {
+  const Scene& scene;
+  const Target& target;
+  ProfileFamily family;
+  std::vector<double> radii_mm;        ///< each once, rising
+  std::vector<std::size_t> radius_of;  ///< of each sample
+  std::vector<std::size_t> columns;    ///< of the variables in the derivatives by all components
+  std::vector<double> per_unit;        ///< mm in a variable's unit; 1 for weights
+  double scale;                        ///< W/mm^2 to the residuals' unit, over the root of their number
+  sim::TubesOptions tubes;
+
+  bool evaluate(std::span<const double> x, std::span<double> residuals, double* jacobian) const;
+
+ private:
+  bool fill(const sim::TubesField& field, const std::vector<double>& direct,
+            std::span<double> residuals) const;
+};
+
+bool Fit::fill(const sim::TubesField& field, const std::vector<double>& direct,
+               std::span<double> residuals) const {
+  if (!believed(field, tubes)) return false;
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    residuals[i] = scale * (direct[i] + field.irradiance[radius_of[i]] - target.irradiance_w_per_mm2[i]);
+  return true;
+}
+
+bool Fit::evaluate(std::span<const double> x, std::span<double> residuals, double* jacobian) const {
+  const auto profile = family.at(x);
+  if (!profile) return false;
+  const Stage stage(scene, *profile);
+  const std::vector<double> direct = sim::direct_field(stage.scene, target.samples);
+  const sim::FieldPlane plane{scene.near_field.center_mm().z(), scene.near_field.normal().z() > 0};
+  if (!jacobian)
+    return fill(sim::tubes_field(stage.source, *profile, scene.mirror, plane, radii_mm, tubes), direct,
+                residuals);
+  const sim::TubesJacobian by_all =
+      sim::tubes_jacobian(stage.source, *profile, scene.mirror, plane, radii_mm, tubes);
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      *jacobian++ =
+          scale * per_unit[j] *
+          by_all.by_variable(static_cast<Eigen::Index>(radius_of[i]), static_cast<Eigen::Index>(columns[j]));
+  return fill(by_all.field, direct, residuals);
+}
+
+}  // namespace
+
+void require_fit(const Scene& scene, sim::Rung rung) {
+  const auto refuse = [&](std::string why) {
+    throw scene.settings.error("search.method", "Levenberg-Marquardt cannot search here", std::move(why),
+                               "search.method = \"cma-es\"");
+  };
+  if (rung != sim::Rung::tubes)
+    refuse("its derivatives come from ray tubes, and this scene's light is computed by " +
+           std::string(sim::name(rung)));
+  if (scene.mirror.transmittance > 0) refuse("its derivatives are for mirrors that let no light through");
+}
+
+optim::LeastSquaresProblem fit_problem(const Scene& scene, const Target& target) {
+  const std::vector<std::string> variables = names(scene.variables);
+  const std::vector<double> radii_mm = sim::ring_radii_mm(scene.near_field, target.samples);
+  auto fit = std::make_shared<Fit>(Fit{scene,
+                                       target,
+                                       ProfileFamily(scene.profile, variables, scene.unit),
+                                       radii_mm,
+                                       {},
+                                       {},
+                                       {},
+                                       0,
+                                       tubes_options(scene, *scene.model.estimate.kernel_radius_mm)});
+  std::ranges::sort(fit->radii_mm);
+  fit->radii_mm.erase(std::ranges::unique(fit->radii_mm).begin(), fit->radii_mm.end());
+  for (const double radius : radii_mm)
+    fit->radius_of.push_back(
+        static_cast<std::size_t>(std::ranges::lower_bound(fit->radii_mm, radius) - fit->radii_mm.begin()));
+  for (const std::string& variable : variables) {
+    const Component component = *parse_component(variable, scene.profile.points().size());
+    fit->columns.push_back(3 * component.point + std::string_view("rzw").find(component.coordinate));
+    fit->per_unit.push_back(component.coordinate == 'w' ? 1.0 : millimetres_per(scene.unit));
+  }
+  const double root = std::sqrt(static_cast<double>(radii_mm.size()));
+  fit->scale = scene.search.metric == Metric::rmse
+                   ? to_w_per_m2(1.0) / root
+                   : 1 / (root * root_mean_square(target.irradiance_w_per_mm2));
+  return {scene.variables, radii_mm.size(),
+          [fit](std::span<const double> x, std::span<double> residuals, double* jacobian) {
+            return fit->evaluate(x, residuals, jacobian);
+          }};
+}
+
+}  // namespace catoptric::design

@@ -1,0 +1,124 @@
+#include "design/search_methods.h"
+
+#include <cmath>
+#include <limits>
+
+#include "design/constraints.h"
+#include "design/search.h"
+#include "optim/hooke_jeeves.h"
+#include "optim/least_squares.h"
+#include "optim/multi_start.h"
+#include "optim/nelder_mead.h"
+#include "optim/pagmo_search.h"
+
+namespace catoptric::design {
+namespace {
+
+/// Share of a pattern search that is done, by the step: it must be halved so many times in all.
+double share_done(const Scene& scene, double step) {
+  const double share = std::log(step) / std::log(scene.search.smallest_step);
+  return std::isfinite(share) ? std::min(1.0, std::max(0.0, share)) : 0.0;
+}
+
+/// Tells the watcher of every evaluation.
+class Telling {
+ public:
+  Telling(const Scene& scene, const RunControl& control) : scene_(scene), control_(control) {}
+
+  double evaluated(double value) {
+    ++evaluations_;
+    if (value < infeasible_floor && !(value >= best_)) best_ = value;
+    const double spent =
+        static_cast<double>(evaluations_) / static_cast<double>(scene_.search.most_evaluations);
+    control_.tell({"search", std::max(share_, spent), best_, evaluations_});
+    return value;
+  }
+  void stepped(double step) { share_ = share_done(scene_, step); }
+
+ private:
+  const Scene& scene_;
+  const RunControl& control_;
+  long evaluations_ = 0;
+  double best_ = std::numeric_limits<double>::quiet_NaN(), share_ = 0;
+};
+
+optim::Outcome by_hooke_jeeves(const SearchSpec& spec, const optim::StartedSearch& one, Telling& telling) {
+  optim::HookeJeevesOptions options;
+  options.acceleration = spec.acceleration;
+  options.reduction = spec.reduction;
+  options.smallest_step = spec.smallest_step;
+  options.most_evaluations = one.limits.most_evaluations;
+  options.most_iterations = spec.most_iterations;
+  options.reach = one.limits.reach;
+  options.progress = [&](const optim::Iterate& iterate) {
+    telling.stepped(iterate.step);
+    return true;
+  };
+  options.stop_requested = one.limits.stop_requested;
+  return optim::hooke_jeeves(one.problem, options);
+}
+
+optim::Outcome by_fit(const Scene& scene, const Target& target, const optim::StartedSearch& one,
+                      Telling& telling) {
+  optim::LevenbergMarquardtOptions options;
+  options.most_evaluations = one.limits.most_evaluations;
+  options.most_iterations = scene.search.most_iterations;
+  options.reach = one.limits.reach;
+  options.progress = [&](const optim::Iterate& iterate) {
+    telling.evaluated(iterate.value);
+    return true;
+  };
+  options.stop_requested = one.limits.stop_requested;
+  optim::LeastSquaresProblem problem = fit_problem(scene, target);
+  problem.variables = one.problem.variables;
+  return optim::levenberg_marquardt(problem, options);
+}
+
+std::optional<optim::PagmoMethod> pagmo_method(const std::string& method) {
+  using enum optim::PagmoMethod;
+  if (method == "cma-es") return cma_es;
+  if (method == "differential-evolution") return differential_evolution;
+  if (method == "self-adaptive-de") return self_adaptive_de;
+  if (method == "particle-swarm") return particle_swarm;
+  if (method == "simulated-annealing") return simulated_annealing;
+  if (method == "genetic") return genetic;
+  if (method == "compass") return compass;
+  return std::nullopt;
+}
+
+optim::Outcome by_method(const Scene& scene, const Target& target, const optim::StartedSearch& one,
+                         Telling& telling) {
+  const SearchSpec& spec = scene.search;
+  if (spec.method == "levenberg-marquardt") return by_fit(scene, target, one, telling);
+  if (spec.method == "nelder-mead") return optim::nelder_mead(one.problem, {.limits = one.limits});
+  if (const auto method = pagmo_method(spec.method))
+    return optim::pagmo_search(one.problem, *method,
+                               {.limits = one.limits,
+                                .seed = one.seed,
+                                .population = spec.population,
+                                .annealing_evaluations = spec.most_evaluations});
+  return by_hooke_jeeves(spec, one, telling);
+}
+
+}  // namespace
+
+optim::Outcome search_once(const Scene& scene, sim::Rung rung, const Target& target,
+                           const RunControl& control) {
+  const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
+  Telling telling(scene, control);
+  const optim::Problem problem{scene.variables, [&](std::span<const double> x) {
+                                 return telling.evaluated(value_at(scene, rung, target, family, x));
+                               }};
+  optim::SearchLimits limits;
+  limits.most_evaluations = scene.search.most_evaluations;
+  if (scene.search.reach) limits.reach = *scene.search.reach;
+  limits.stop_requested = [&] { return control.stopped(); };
+  const auto one_search = [&](const optim::StartedSearch& one) {
+    return by_method(scene, target, one, telling);
+  };
+  if (scene.search.restarts == 0) return one_search({problem, limits, scene.seed});
+  return optim::multi_start(problem, one_search,
+                            {.limits = limits, .most_restarts = scene.search.restarts, .seed = scene.seed});
+}
+
+}  // namespace catoptric::design

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+
+#include "design/run.h"
+#include "design/scene.h"
+#include "design/target.h"
+#include "optim/least_squares.h"
+#include "optim/outcome.h"
+
+namespace catoptric::design {
+
+/// One search with one kernel, restarts included.
+optim::Outcome search_once(const Scene& scene, sim::Rung rung, const Target& target,
+                           const RunControl& control);
+
+/// Why Levenberg-Marquardt cannot search here.
+/// @fails InputError saying so
+void require_fit(const Scene& scene, sim::Rung rung);
+
+/// The field's deviations at the samples as a least-squares problem over the scene's variables, by ray tubes
+/// and their derivatives; its norm is the scene's objective.
+/// @in    require_fit holds; scene and target outlive the result
+/// @cost  512 samples of the paper's scene: 0.3 ms, with derivatives 1 ms
+optim::LeastSquaresProblem fit_problem(const Scene& scene, const Target& target);
+
+/// The scene's target as a kernel of this radius shows it, so that a wide kernel's blur is on both sides of
+/// the comparison: by light for reference reflectors, by integration for functions of the radius. A table of
+/// points stays as it is.
+/// @in    the scene's kernel_radius is that kernel's
+Target blurred_target(const Scene& scene);
+
+}  // namespace catoptric::design
