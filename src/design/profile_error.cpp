@@ -13,11 +13,27 @@ namespace {
 using Index = std::size_t;
 
 constexpr int least_degree = 3;  ///< so that the displaced curve bends smoothly
-constexpr Index least_spans = 30;
+constexpr int new_spans = 30;
 
+/// The curve with knots at equal arc lengths, so that it can bend alike everywhere.
 Profile refined(const Profile& base) {
   const Profile smooth = cad::elevated(base, std::max(base.degree(), least_degree));
-  return cad::split_spans(smooth, static_cast<int>((least_spans - 1) / smooth.spans().size() + 1));
+  constexpr int steps = 100 * new_spans;
+  const double first = smooth.first_parameter(), range = smooth.last_parameter() - first;
+  std::vector<double> lengths{0};  // the knots need not be exact
+  for (int i = 0; i < steps; ++i) {
+    const MeridianPoint p = smooth.at(first + range * (i + 0.5) / steps);
+    lengths.push_back(lengths.back() + std::hypot(p.dr, p.dz));
+  }
+  std::vector<double> knots;
+  for (int i = 1; i < new_spans; ++i) {
+    const auto place = std::upper_bound(lengths.begin(), lengths.end(), lengths.back() * i / new_spans);
+    const double knot = first + range * static_cast<double>(place - lengths.begin()) / steps;
+    const bool apart = std::none_of(smooth.knots().begin(), smooth.knots().end(),
+                                    [&](double other) { return std::abs(other - knot) < range / steps; });
+    if (apart && (knots.empty() || knot > knots.back())) knots.push_back(knot);
+  }
+  return cad::with_knots(smooth, knots);
 }
 
 /// Means of `degree` knots: where a spline's control points act.

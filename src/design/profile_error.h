@@ -24,8 +24,7 @@ class ProfileError {
   /// Displacements that move the curve by offset(share of arc length from the vertex) along the normal, away
   /// from the room that the generatrix encloses with the axis. A vertex on the axis stays on it.
   /// @in    offset: mm, or mm per unit of whatever amplitude at() is given
-  /// @error an interpolation with knots at a thirtieth of the length or less: 1e-4 of offsets with up to four
-  /// half
+  /// @error an interpolation by cubics over a thirtieth of the length each: 1e-3 of offsets of up to four half
   ///        waves
   std::vector<PointShift> along_normal(const std::function<double(double share)>& offset) const;
 

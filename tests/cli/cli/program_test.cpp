@@ -41,8 +41,8 @@ TEST_CASE("help and version are no errors, and every command shows an example") 
   const Ended keys = program_run("--keys");
   CHECK(keys.code == 0);
   CHECK_THAT(keys.output, Contains("model.photons\n") && Contains("100000 when left out"));
-  for (const char* command :
-       {"design", "simulate", "explain", "landscape", "profile", "export", "tradeoff", "study"}) {
+  for (const char* command : {"design", "simulate", "explain", "landscape", "profile", "export", "tradeoff",
+                              "sensitivity", "study"}) {
     const Ended help = program_run(std::string(command) + " --help");
     INFO(help.output);
     CHECK(help.code == 0);
@@ -338,4 +338,26 @@ TEST_CASE("tradeoff measures, chooses and writes") {
   }
   CHECK_THAT(read_whole(folder / "tradeoff.csv"), Catch::StartsWith("rung,engine,sampler,photons"));
   CHECK_THAT(read_whole(folder / "report.html"), Contains("<svg"));
+}
+
+TEST_CASE("sensitivity prints and writes what the maker must keep") {
+  const TemporaryFolder folder;
+  const Ended ended = program_run("sensitivity '" + paper + "paraboloid.toml'" + small +
+                                  " --set sensitivity.modes=1 --set sensitivity.allowed=0.05 --out '" +
+                                  folder.path().string() + "'");
+  INFO(ended.output);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.output, Contains("source across the axis") && Contains("root sum of squares"));
+  const json result = parsed(folder / "sensitivity.json");
+  CHECK(result["parameters"].size() == 7);
+  for (const json& each : result["parameters"]) {
+    CHECK(each["model"] == (each["key"] == "source_lateral" ? "photons" : "tubes"));
+    CHECK(each["tolerance_in_budget"].get<double>() ==
+          Approx(each["tolerance"].get<double>() / std::sqrt(7.0)));
+  }
+  CHECK_THAT(read_whole(folder / "sensitivity.csv"),
+             Catch::StartsWith("deviation,unit,minus,plus,tolerance"));
+  CHECK_THAT(read_whole(folder / "derivatives.csv"), Catch::StartsWith("r,field,source_axial"));
+  CHECK_THAT(read_whole(folder / "report.html"), Contains("<svg") && Contains("breaks the symmetry"));
+  CHECK(program_run("sensitivity '" + paper + "paraboloid.toml' --set sensitivity.allowed=0").code == 3);
 }
