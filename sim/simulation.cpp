@@ -9,6 +9,16 @@
 #include "sim/clear_view.h"
 
 namespace catoptric::sim {
+namespace {
+
+/// A probe of a mirror that stands nowhere.
+class OpenSpace final : public Probe {
+ public:
+  std::optional<Hit> first_hit(const Ray&, double) override { return std::nullopt; }
+  std::vector<Hit> all_hits(const Ray&, double) override { return {}; }
+};
+
+}  // namespace
 
 std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample> samples) {
   std::vector<double> direct(samples.size());

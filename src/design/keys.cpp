@@ -60,6 +60,18 @@ std::string nearest_path(std::span<const Key> keys, std::string_view path) {
   return best;
 }
 
+std::string nearest_choice(const Key& key, std::string_view value) {
+  std::string_view best;
+  std::size_t least = std::max<std::size_t>(2, value.size() / 3) + 1;
+  for (const std::string_view choice : key.choices) {
+    const std::size_t distance = edit_distance(choice, value);
+    if (distance >= least) continue;
+    least = distance;
+    best = choice;
+  }
+  return std::string(best);
+}
+
 std::string reference(std::span<const Key> keys) {
   std::string text;
   for (const Key& key : keys) {

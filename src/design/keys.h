@@ -46,6 +46,9 @@ const Key* find_key(std::span<const Key> keys, std::string_view path);
 /// @from  Damerau-Levenshtein distance, at most a third of the length
 std::string nearest_path(std::span<const Key> keys, std::string_view path);
 
+/// The choice of a key most like a mistyped one, or empty when nothing is near.
+std::string nearest_choice(const Key& key, std::string_view value);
+
 /// Distance in insertions, deletions, substitutions and swaps of neighbours.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 

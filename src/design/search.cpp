@@ -109,7 +109,12 @@ double value_at(const Scene& scene, sim::Rung rung, const Target& target, const 
 
 optim::Outcome search(const Scene& scene, sim::Rung rung, const Target& target, const RunControl& control) {
   if (scene.search.method == "levenberg-marquardt") require_fit(scene, rung);
-  if (!scene.search.kernels_mm.empty()) return search_coarse_to_fine(scene, rung, target, control);
+  const long kernels = static_cast<long>(scene.search.kernels_mm.size());
+  if (kernels > 0 && scene.search.most_evaluations <= kernels + 1)
+    throw scene.settings.error("search.most_evaluations", "leaves nothing for each kernel",
+                               "every kernel needs evaluations of its own",
+                               "fewer search.kernels, or more evaluations");
+  if (kernels > 0) return search_coarse_to_fine(scene, rung, target, control);
   return search_once(scene, rung, target, control);
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 
+#include "design/constraints.h"
 #include "design/evaluator.h"
 #include "design/search.h"
 #include "design/search_methods.h"
@@ -42,7 +43,7 @@ bool Fit::fill(const sim::TubesField& field, const std::vector<double>& direct,
 
 bool Fit::evaluate(std::span<const double> x, std::span<double> residuals, double* jacobian) const {
   const auto profile = family.at(x);
-  if (!profile) return false;
+  if (!profile || violation(scene.constraints, *profile) > 0) return false;
   const Stage stage(scene, *profile);
   const std::vector<double> direct = sim::direct_field(stage.scene, target.samples);
   const sim::FieldPlane plane{scene.near_field.center_mm().z(), scene.near_field.normal().z() > 0};

@@ -43,6 +43,12 @@ struct Complaint {
     throw InputError({fmt::format("{} = {} is out of range", path, value), where,
                       fmt::format("it must be {}", rule(key)), std::string(key.meaning)});
   }
+  [[noreturn]] void no_choice(const std::string& value) const {
+    const std::string near = nearest_choice(key, value);
+    throw InputError({fmt::format("{} = \"{}\" is no choice", path, value), where,
+                      fmt::format("it must be {}", rule(key)),
+                      near.empty() ? std::string(key.meaning) : fmt::format("did you mean \"{}\"?", near)});
+  }
 };
 
 double checked_number(const Complaint& complaint, const toml::node& node) {
@@ -67,7 +73,7 @@ std::string checked_text(const Complaint& complaint, const toml::node& node) {
   const auto& choices = complaint.key.choices;
   if (complaint.key.type == KeyType::choice &&
       std::find(choices.begin(), choices.end(), text) == choices.end())
-    complaint.out_of_range(fmt::format("\"{}\"", text));
+    complaint.no_choice(text);
   return text;
 }
 

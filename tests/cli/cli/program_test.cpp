@@ -148,6 +148,48 @@ TEST_CASE("a search that runs out of evaluations ends with 5 and writes its file
   CHECK(std::filesystem::exists(folder / "a" / "reflector.step"));
 }
 
+TEST_CASE("every search can be asked for by name, keeps to its budget and betters the start") {
+  for (const char* method :
+       {"hooke-jeeves", "levenberg-marquardt", "nelder-mead", "compass", "cma-es", "differential-evolution",
+        "self-adaptive-de", "particle-swarm", "simulated-annealing", "genetic"})
+    for (const char* more : {"", " --set search.restarts=2", " --set 'search.kernels=[3, 1]'"}) {
+      INFO(method << more);
+      const TemporaryFolder folder;
+      const Ended ended = program_run("design '" + paper + "start_a.toml' --quiet --out '" +
+                                      (folder.path() / "run").string() + "'" + small +
+                                      " --set model.interactions=4 --set search.most_evaluations=40" +
+                                      " --set search.method=" + method + more);
+      INFO(ended.output);
+      CHECK((ended.code == 0 || ended.code == 5));
+      const json result = parsed(folder.path() / "run" / "result.json");
+      CHECK(result.at("counts").at("evaluations") <= 40);
+      CHECK(result.at("search_value") < 0.2);  // the start has 0.285
+    }
+}
+
+TEST_CASE("a search by a wrong name, or one that does not fit the scene, is refused with what to do") {
+  const Ended wrong = program_run("design '" + paper + "start_a.toml' --set search.method=cmaes");
+  CHECK(wrong.code == 3);
+  CHECK_THAT(wrong.output, Contains("did you mean \"cma-es\"?"));
+  const Ended unfit = program_run(
+      "design '" + paper + "start_a.toml' --set search.method=levenberg-marquardt --set model.rung=rings");
+  CHECK(unfit.code == 3);
+  CHECK_THAT(unfit.output, Contains("ray tubes") && Contains("rings"));
+}
+
+TEST_CASE("a value that is reached ends a search, and that is a good end") {
+  const TemporaryFolder folder;
+  const Ended ended = program_run(
+      "design '" + paper + "start_c.toml' --quiet --out '" + (folder.path() / "run").string() + "'" + small +
+      " --set model.interactions=4 --set search.restarts=1000 --set search.reach=0.01");
+  INFO(ended.output);
+  CHECK(ended.code == 0);
+  const json result = parsed(folder.path() / "run" / "result.json");
+  CHECK(result.at("search_value") <= 0.01);
+  CHECK(result.at("outcome") == "converged");
+  CHECK(result.at("counts").at("restarts") > 0);  // from C itself it is not to be had
+}
+
 TEST_CASE("an interrupted search ends with 130 and leaves its best so far") {
   const TemporaryFolder folder;
   // --foreground: else timeout signals its group too, and a second signal ends the program at once

@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "design/evaluator.h"
+#include "design/run.h"
+#include "design/search.h"
+#include "design/search_methods.h"
+#include "optim/least_squares.h"
+
+using namespace catoptric;
+using namespace catoptric::design;
+
+namespace {
+
+Scene start_a(std::vector<Override> changes) {
+  changes.push_back({"model.rung", "tubes", "test"});
+  changes.push_back({"model.interactions", "4", "test"});  // far corners of the box are deep cavities
+  changes.push_back({"near_field.samples", "100", "test"});
+  return read_scene(std::string(CATOPTRIC_DATA) + "/paper/start_a.toml", changes);
+}
+
+optim::Outcome searched(const Scene& scene) {
+  return search(scene, sim::Rung::tubes, make_target(scene), {});
+}
+
+}  // namespace
+
+TEST_CASE("from a wide kernel to a narrow one, start A finds the paraboloid where it runs away otherwise") {
+  for (const char* radius : {"10", "20"}) {
+    INFO("near field of " << radius << " cm");
+    const optim::Outcome plain = searched(start_a({{"near_field.radius", radius, "test"}}));
+    CHECK(plain.best[0] > 5);
+    const optim::Outcome staged = searched(
+        start_a({{"near_field.radius", radius, "test"}, {"search.kernels", "[6, 3, 1.5, 0.75]", "test"}}));
+    CHECK(staged.best[0] == Approx(1).margin(0.01));
+    CHECK(staged.best[1] == Approx(10).margin(0.1));
+    CHECK(staged.value < 0.1 * plain.value);
+    CHECK(staged.start_value == plain.start_value);
+    CHECK(staged.history.front().move == "start, kernel 6 cm");
+    CHECK(staged.history.back().move.ends_with("own kernel"));
+    CHECK(staged.history.back().evaluations <= staged.evaluations);
+  }
+}
+
+TEST_CASE("a blurred target is what the paraboloid's light is through the same kernel") {
+  const Scene scene = start_a(
+      {{"model.kernel_radius", "2", "test"}, {"near_field.radius", "9", "test"}});  // the rim is at 10
+  const Target sharp = make_target(scene), target = blurred_target(scene);
+  const Profile paraboloid(2, scene.profile.knots(), {{0, 100, 1}, {50, 100, 1}, {100, 50, 1}});
+  const std::vector<double> lit =
+      total_by_rung(scene, sim::Rung::tubes, paraboloid, target.samples, search_stream);
+  double worst = 0, moved = 0;
+  for (std::size_t i = 0; i < lit.size(); ++i) {
+    worst = std::max(worst, to_w_per_m2(std::abs(target.irradiance_w_per_mm2[i] - lit[i])));
+    moved = std::max(moved,
+                     to_w_per_m2(std::abs(target.irradiance_w_per_mm2[i] - sharp.irradiance_w_per_mm2[i])));
+  }
+  CHECK(worst < 0.01);  // of 0.25 W/m^2 that end at the rim
+  CHECK(moved > 0.05);
+}
+
+TEST_CASE("the fit's norm is the scene's objective, and its derivatives are those of the residuals") {
+  for (const char* metric : {"rmse", "relative-rmse"}) {
+    const Scene scene = start_a({{"search.metric", metric, "test"}});
+    const Target target = make_target(scene);
+    const optim::LeastSquaresProblem problem = fit_problem(scene, target);
+    const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
+    const std::size_t count = problem.residual_count;
+    std::vector<double> x{1.3, 9.4}, residuals(count), jacobian(2 * count), plus(count), minus(count);
+    REQUIRE(problem.evaluate(x, residuals, jacobian.data()));
+    double square = 0;
+    for (const double each : residuals) square += each * each;
+    CHECK(std::sqrt(square) == Approx(value_at(scene, sim::Rung::tubes, target, family, x)).epsilon(1e-4));
+    for (std::size_t j = 0; j < 2; ++j) {
+      constexpr double step = 1e-3;
+      std::vector<double> up = x, down = x;
+      up[j] += step;
+      down[j] -= step;
+      REQUIRE(problem.evaluate(up, plus, nullptr));
+      REQUIRE(problem.evaluate(down, minus, nullptr));
+      double difference = 0, size = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const double slope = (plus[i] - minus[i]) / (2 * step);
+        difference += std::pow(slope - jacobian[2 * i + j], 2);
+        size += slope * slope;
+      }
+      CHECK(std::sqrt(difference / size) < 0.01);
+    }
+  }
+}
