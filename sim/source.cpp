@@ -28,9 +28,10 @@ double tilt_of(const Vector3& axis) { return std::atan2(std::hypot(axis.x(), axi
 PointSource::PointSource(const Vector3& position_mm, double power_w, double exponent, const Vector3& axis)
     : position_mm_(position_mm), power_w_(power_w), law_{exponent}, axis_(unit_axis(axis)) {
   check_source(position_mm, power_w, axis);
-  if (!(std::isfinite(exponent) && exponent >= 0))
+  if (!(exponent >= 0 && exponent <= greatest_exponent))
     throw InputError({fmt::format("exponent of {}", exponent), "source",
-                      "the exponent of the intensity's cosine is finite and not negative",
+                      fmt::format("the exponent of the intensity's cosine lies between 0 and {}",
+                                  greatest_exponent),
                       "1 is Lambert's law, 0 the same in all directions"});
 }
 

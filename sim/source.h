@@ -64,13 +64,16 @@ class Source {
                                   double lift_mm) const = 0;
 };
 
+/// Above it a beam is narrower than 2 degrees and its cosine's power leaves the range of numbers.
+inline constexpr double greatest_exponent = 1000;
+
 /// A point that radiates the same in all directions, or with the intensity I0 cos^n about an axis and nothing
 /// behind, where I0 = power (n + 1) / (2 pi).
 class PointSource final : public Source {
  public:
   /// @in    exponent 0: the same in all directions, without an axis
-  /// @fails InputError for a position that is not finite, a power or an exponent that is negative or not
-  ///        finite, an axis without direction
+  /// @fails InputError for a position that is not finite, a power that is negative or not finite, an exponent
+  ///        below 0 or above greatest_exponent, an axis without direction
   PointSource(const Vector3& position_mm, double power_w, double exponent = 0,
               const Vector3& axis = Vector3::UnitZ());
   double power_w() const override { return power_w_; }

@@ -18,14 +18,14 @@ void print_plan(const char* title, const sim::Plan& plan) {
 
 ExitCode explain_command(const CommonOptions& options) {
   const design::Scene scene = design::read_scene(options.input, options.overrides());
-  const Profile profile = design::start_profile(scene);
-  const sim::Plan shown = design::simulation_plan(scene, profile);
+  const design::Candidate start = design::start_candidate(scene);
+  const sim::Plan shown = design::simulation_plan(scene, start);
   print_plan("simulate computes the light so:", shown);
   if (scene.accuracy_rel)
     fmt::print("  {:<22}  photons and bandwidth are found until the relative error is at most {:g} (95 %)\n",
                "accuracy", *scene.accuracy_rel);
   if (!scene.variables.empty()) {
-    const sim::Plan searched = design::make_plan(scene, profile);
+    const sim::Plan searched = design::make_plan(scene, design::family_of(scene));
     if (searched.rung == shown.rung)
       fmt::print("\ndesign and landscape search with the same rung, {}\n", name(searched.rung));
     else

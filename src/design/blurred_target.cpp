@@ -34,9 +34,10 @@ Target blurred_target(const Scene& scene) {
   Target target = make_target(scene);
   const auto wanted = radial_target(scene);
   if (!wanted) return target;  // a reference reflector's light has the scene's kernel already
-  const double height_mm = std::abs(scene.source.position_mm.z() - scene.near_field.center_mm().z());
+  const auto source = make_source(scene.source);
   const auto direct = [&](double radius_mm) {
-    return paraboloid_direct_w_per_mm2(scene.source.power_w, height_mm, radius_mm);
+    return source->unhindered_w_per_mm2({radius_mm, 0, scene.near_field.center_mm().z()},
+                                        scene.near_field.normal());
   };
   // Only what the mirror is to give is seen through the kernel.
   const auto reflected = [&](double radius_mm) {

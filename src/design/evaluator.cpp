@@ -110,14 +110,30 @@ bool believed(const sim::TubesField& field, const sim::TubesOptions& options) {
   return field.error_w_per_mm2 <= tubes_accepted * options.tolerance_w_per_mm2;
 }
 
-sim::Plan make_plan(const Scene& scene, const Profile& profile) {
-  const Stage stage(scene, profile);
+sim::Plan make_plan(const Scene& scene, const Candidate& candidate) {
+  const Stage stage(scene, candidate);
   return sim::make_plan(stage.scene, model_request(scene));
 }
 
-std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
+sim::Plan make_plan(const Scene& scene, const SceneFamily& family) {
+  std::vector<double> x;
+  for (const optim::Variable& variable : scene.variables) x.push_back(variable.start);
+  const auto plan_at = [&](const std::vector<double>& values) {
+    return make_plan(scene, family.at(values).value_or(family.base()));
+  };
+  sim::Plan plan = plan_at(x);
+  for (const std::size_t place : family.scene_places())
+    for (const double bound : {scene.variables[place].lower, scene.variables[place].upper}) {
+      std::vector<double> values = x;
+      values[place] = bound;
+      if (sim::Plan needed = plan_at(values); needed.rung > plan.rung) plan = std::move(needed);
+    }
+  return plan;
+}
+
+std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Candidate& candidate,
                                   std::span<const sim::FieldSample> samples, std::uint64_t stream) {
-  const Stage stage(scene, profile);
+  const Stage stage(scene, candidate);
   const std::vector<double> direct = sim::direct_field(stage.scene, samples);
   if (rung == sim::Rung::tubes)
     if (const auto reflected =
@@ -135,9 +151,9 @@ std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Prof
                          .irradiance);
 }
 
-Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
+Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Candidate& candidate,
                             std::span<const sim::FieldSample> samples, std::uint64_t stream) {
-  const Stage stage(scene, profile);
+  const Stage stage(scene, candidate);
   if (rung == sim::Rung::rings) return evaluate_by_rings(scene, stage, samples, stream);
   if (rung == sim::Rung::tubes) {
     const double radius_mm = *scene.model.estimate.kernel_radius_mm;

@@ -11,11 +11,16 @@ namespace catoptric::design {
 
 /// What the search computes a mirror's light with in this scene, and why.
 /// @fails InputError when the scene forces a rung that is not valid
-sim::Plan make_plan(const Scene& scene, const Profile& profile);
+sim::Plan make_plan(const Scene& scene, const Candidate& candidate);
+
+/// The same for a whole family: the dearest rung that its start, or its bounds beside the shape, need (a
+/// source that may leave the axis).
+/// @in    of scene.variables, with their start values
+sim::Plan make_plan(const Scene& scene, const SceneFamily& family);
 
 /// The light of one mirror by a rung: total irradiance at the samples, W/mm^2. Photons come from `stream`;
 /// they also stand in where tubes cannot meet their error bound (cavities with very many paths).
-std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
+std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Candidate& candidate,
                                   std::span<const sim::FieldSample> samples, std::uint64_t stream);
 
 /// What ray tubes are asked for in this scene, with a kernel of that radius; and whether their error is small
@@ -38,8 +43,21 @@ struct Evaluation {
 /// @error the blur is extrapolated from two kernel areas: right where the field is smooth over a kernel, too
 ///        small at jumps and caustics
 /// @from  Richardson extrapolation of a kernel of second order: Schucany & Sommers 1977
-Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
+Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Candidate& candidate,
                             std::span<const sim::FieldSample> samples, std::uint64_t stream);
+
+// The same for a mirror's shape in the scene as it is written.
+inline sim::Plan make_plan(const Scene& scene, const Profile& profile) {
+  return make_plan(scene, scene.with(profile));
+}
+inline std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
+                                         std::span<const sim::FieldSample> samples, std::uint64_t stream) {
+  return total_by_rung(scene, rung, scene.with(profile), samples, stream);
+}
+inline Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Profile& profile,
+                                   std::span<const sim::FieldSample> samples, std::uint64_t stream) {
+  return evaluate_by_rung(scene, rung, scene.with(profile), samples, stream);
+}
 
 /// Root of the mean squared difference.  @from paper eq. 7
 double root_mean_square_error(std::span<const double> values, std::span<const double> target);

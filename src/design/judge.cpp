@@ -95,12 +95,12 @@ void fill_fields(Judgement& judgement, const Rows& reflected, const Rows& sharp)
   judgement.field_bias_w_per_mm2 = debiased_root(blur_rms * blur_rms, mean(blur_spread.variance_of_mean));
 }
 
-std::vector<Evaluation> evaluations(const Scene& scene, const Target& target, const Profile& profile,
+std::vector<Evaluation> evaluations(const Scene& scene, const Target& target, const Candidate& candidate,
                                     sim::Rung rung, std::uint64_t first_stream) {
-  std::vector<Evaluation> list{evaluate_by_rung(scene, rung, profile, target.samples, first_stream)};
+  std::vector<Evaluation> list{evaluate_by_rung(scene, rung, candidate, target.samples, first_stream)};
   if (list.front().rung == sim::Rung::tubes) return list;
   for (std::uint64_t i = 1; i < scene.model.replicates; ++i)
-    list.push_back(evaluate_by_rung(scene, list.front().rung, profile, target.samples, first_stream + i));
+    list.push_back(evaluate_by_rung(scene, list.front().rung, candidate, target.samples, first_stream + i));
   return list;
 }
 
@@ -111,9 +111,9 @@ AccuracyReport report_of(const sim::AccurateField& field, double asked_rel) {
 
 }  // namespace
 
-Judgement judge(const Scene& scene, const Target& target, const Profile& profile, sim::Rung rung,
+Judgement judge(const Scene& scene, const Target& target, const Candidate& candidate, sim::Rung rung,
                 std::uint64_t first_stream) {
-  std::vector<Evaluation> list = evaluations(scene, target, profile, rung, first_stream);
+  std::vector<Evaluation> list = evaluations(scene, target, candidate, rung, first_stream);
   Judgement judgement;
   judgement.rung = list.front().rung;
   const bool random = judgement.rung != sim::Rung::tubes;
@@ -136,10 +136,10 @@ Judgement judge(const Scene& scene, const Target& target, const Profile& profile
   return judgement;
 }
 
-Judgement judge_to_accuracy(const Scene& scene, const Target& target, const Profile& profile,
+Judgement judge_to_accuracy(const Scene& scene, const Target& target, const Candidate& candidate,
                             std::uint64_t first_stream, bool fresh_photons_only,
                             const std::function<bool(std::uint64_t, double)>& watch) {
-  const Stage stage(scene, profile);
+  const Stage stage(scene, candidate);
   sim::AccuracyRequest request;
   request.relative = *scene.accuracy_rel;
   request.model = model_request(scene);

@@ -58,15 +58,24 @@ struct Judgement {
 /// order
 ///        (Silverman 1986, section 3.3); the objective's interval: jackknife over the replicates (Miller
 ///        1974)
-Judgement judge(const Scene& scene, const Target& target, const Profile& profile, sim::Rung rung,
+Judgement judge(const Scene& scene, const Target& target, const Candidate& candidate, sim::Rung rung,
                 std::uint64_t first_stream);
+inline Judgement judge(const Scene& scene, const Target& target, const Profile& profile, sim::Rung rung,
+                       std::uint64_t first_stream) {
+  return judge(scene, target, scene.with(profile), rung, first_stream);
+}
 
 /// Judges a mirror with as many photons as the scene's accuracy takes. The field is the irradiance itself;
 /// the kernel's blur has been extrapolated away and what may be left of it is in the report.
 /// @in    the scene asks for an accuracy; fresh_photons_only: not by tubes, which the search may have used
 /// @fails as sim::reach_accuracy
-Judgement judge_to_accuracy(const Scene& scene, const Target& target, const Profile& profile,
+Judgement judge_to_accuracy(const Scene& scene, const Target& target, const Candidate& candidate,
                             std::uint64_t first_stream, bool fresh_photons_only,
                             const std::function<bool(std::uint64_t, double)>& watch);
+inline Judgement judge_to_accuracy(const Scene& scene, const Target& target, const Profile& profile,
+                                   std::uint64_t first_stream, bool fresh_photons_only,
+                                   const std::function<bool(std::uint64_t, double)>& watch) {
+  return judge_to_accuracy(scene, target, scene.with(profile), first_stream, fresh_photons_only, watch);
+}
 
 }  // namespace catoptric::design

@@ -1,5 +1,6 @@
 #include "base/tolerance.h"
 #include "design/keys.h"
+#include "sim/source.h"
 
 namespace catoptric::design {
 namespace {
@@ -29,9 +30,12 @@ const std::vector<Key>& scene_table() {
       {.path = "tailored.degree", .type = integer, .least = 2, .greatest = 9, .standard = "3", .meaning = "degree of a generatrix made from nothing"},
       {.path = "tailored.points", .type = integer, .least = 3, .greatest = 64, .standard = "10", .meaning = "its control points"},
 
-      {.path = "source.kind", .type = choice, .choices = {"point"}, .standard = "\"point\"", .meaning = "a point that radiates alike in all directions"},
-      {.path = "source.position", .type = numbers, .quantity = Q::length, .least = -far, .greatest = far, .count = 3, .standard = "[0.0, 0.0, 0.0]", .meaning = "x, y, z of the source"},
+      {.path = "source.kind", .type = choice, .choices = {"point", "disc"}, .standard = "\"point\"", .meaning = "a point, or a flat disc that radiates by Lambert's law on one side"},
+      {.path = "source.position", .type = numbers, .quantity = Q::length, .least = -far, .greatest = far, .count = 3, .standard = "[0.0, 0.0, 0.0]", .meaning = "x, y, z of the source, of a disc's centre"},
       {.path = "source.power", .type = number, .quantity = Q::power_w, .least = 0, .greatest = 1e12, .least_excluded = true, .meaning = "radiant power of the source, W"},
+      {.path = "source.exponent", .type = number, .least = 0, .greatest = sim::greatest_exponent, .meaning = "point: its intensity goes like this power of the cosine to its axis, with nothing behind; 0, when left out: alike in all directions"},
+      {.path = "source.axis", .type = numbers, .least = -far, .greatest = far, .count = 3, .meaning = "direction in which the source is brightest, of a disc the side that radiates; [0, 0, 1] when left out"},
+      {.path = "source.radius", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "disc: its radius"},
 
       {.path = "reflector.name", .type = text, .standard = "\"reflector\"", .meaning = "name of the part in exchange files"},
       {.path = "reflector.degree", .type = integer, .least = 1, .greatest = 9, .meaning = "degree of the generatrix"},
@@ -120,7 +124,7 @@ const std::vector<Key>& scene_table() {
       {.path = "constraints.wall", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "a wall of this thickness, on the side of reflector.wall_side, must not fold"},
       {.path = "constraints.no_folds", .type = boolean, .meaning = "true: the generatrix does not cross itself, and from apex to rim first reflections land ever farther out or ever farther in"},
 
-      {.path = "variables.*.start", .type = number, .least = -far, .greatest = far, .meaning = "first value; the reflector's own when left out"},
+      {.path = "variables.*.start", .type = number, .least = -far, .greatest = far, .meaning = "first value; the scene's own when left out. Variables are r0, z0, w0, r1, ... of the reflector, and source.x, source.y, source.z, source.power, source.exponent, reflector.reflectance"},
       {.path = "variables.*.step", .type = number, .least = 0, .greatest = far, .least_excluded = true, .meaning = "first step"},
       {.path = "variables.*.lower", .type = number, .least = -far, .greatest = far, .meaning = "least value allowed"},
       {.path = "variables.*.upper", .type = number, .least = -far, .greatest = far, .meaning = "greatest value allowed"},

@@ -15,6 +15,9 @@ bool fits(std::string_view pattern, std::string_view path) {
   while (true) {
     const auto pattern_dot = pattern.find('.'), path_dot = path.find('.');
     const auto part = pattern.substr(0, pattern_dot);
+    if (part == "*" && pattern_dot != std::string_view::npos)
+      for (auto dot = path_dot; dot != std::string_view::npos; dot = path.find('.', dot + 1))
+        if (fits(pattern.substr(pattern_dot + 1), path.substr(dot + 1))) return true;
     if (part != "*" && part != path.substr(0, path_dot)) return false;
     if ((pattern_dot == std::string_view::npos) != (path_dot == std::string_view::npos)) return false;
     if (pattern_dot == std::string_view::npos) return true;

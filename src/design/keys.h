@@ -20,7 +20,7 @@ inline constexpr double farthest = 1e12;
 
 /// One key. The table of these validates files, fills in defaults, writes scenes out and makes the reference.
 struct Key {
-  std::string_view path;  ///< dotted; a star stands for any one name
+  std::string_view path;  ///< dotted; a star stands for any name, which may have dots itself
   KeyType type;
   Quantity quantity = Quantity::none;
   double least = -std::numeric_limits<double>::infinity();

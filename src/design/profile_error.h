@@ -24,7 +24,8 @@ class ProfileError {
   /// Displacements that move the curve by offset(share of arc length from the vertex) along the normal, away
   /// from the room that the generatrix encloses with the axis. A vertex on the axis stays on it.
   /// @in    offset: mm, or mm per unit of whatever amplitude at() is given
-  /// @error an interpolation by cubics over a thirtieth of the length each: 1e-3 of offsets of up to four half
+  /// @error an interpolation by cubics over a thirtieth of the length each: 1e-3 of offsets of up to four
+  /// half
   ///        waves
   std::vector<PointShift> along_normal(const std::function<double(double share)>& offset) const;
 

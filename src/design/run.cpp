@@ -56,16 +56,30 @@ std::function<bool(std::uint64_t, double)> watch_accuracy(const Scene& scene, co
   };
 }
 
+/// The dearest rung that a corner of the landscape needs.
+sim::Rung rung_for(const Scene& scene, const LandscapeSpec& spec, const SceneFamily& family,
+                   const Candidate& start) {
+  sim::Rung rung = make_plan(scene, start).rung;
+  for (const auto* corner : {&spec.lower, &spec.upper})
+    if (const auto candidate = family.at(*corner)) rung = std::max(rung, make_plan(scene, *candidate).rung);
+  return rung;
+}
+
 }  // namespace
 
-Profile start_profile(const Scene& scene) {
-  const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
-  const auto profile = family.at(starts(scene.variables));
-  if (!profile)
+SceneFamily family_of(const Scene& scene) {
+  return {scene.with(scene.profile), names(scene.variables), scene.unit};
+}
+
+Profile start_profile(const Scene& scene) { return start_candidate(scene).profile; }
+
+Candidate start_candidate(const Scene& scene) {
+  auto candidate = family_of(scene).at(starts(scene.variables));
+  if (!candidate)
     throw scene.settings.error("variables." + scene.variables.front().name + ".start",
                                "the start values make no mirror",
                                "the generatrix must stay in the half-plane r >= 0", "move the start values");
-  return *profile;
+  return std::move(*candidate);
 }
 
 DesignResult run_design(const Scene& scene, const RunControl& control) {
@@ -74,15 +88,15 @@ DesignResult run_design(const Scene& scene, const RunControl& control) {
                                "design moves at least one variable",
                                "[variables.w1] with step, lower and upper");
   need_target(scene, "design");
-  const Profile start = start_profile(scene);
-  sim::Plan plan = make_plan(scene, start);
+  const Candidate start = start_candidate(scene);
+  const SceneFamily family = family_of(scene);
+  sim::Plan plan = make_plan(scene, family);
   const Stopwatch watch;
   Target target = make_target(scene);
   need_light(scene, target);
   optim::Outcome outcome = search(scene, plan.rung, target, control);
   const double search_seconds = watch.seconds();
-  const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
-  const Profile best = family.at(outcome.best).value_or(start);
+  const Candidate best = family.at(outcome.best).value_or(start);
   control.tell({"verify", 1.0, outcome.value < infeasible_floor ? outcome.value : NAN, outcome.evaluations});
   Judgement start_judgement = judge(scene, target, start, sim::Rung::photons, verdict_stream);
   Judgement best_judgement = scene.accuracy_rel
@@ -95,16 +109,18 @@ DesignResult run_design(const Scene& scene, const RunControl& control) {
   return {std::move(target),
           std::move(plan),
           outcome,
-          {start, starts(scene.variables), std::move(start_judgement), states(scene.constraints, start)},
-          {best, outcome.best, std::move(best_judgement), states(scene.constraints, best)},
+          {start.profile, starts(scene.variables), std::move(start_judgement),
+           states(scene.constraints, start.profile), start.source},
+          {best.profile, outcome.best, std::move(best_judgement), states(scene.constraints, best.profile),
+           best.source},
           photons,
           search_seconds,
           watch.seconds()};
 }
 
-sim::Plan simulation_plan(const Scene& scene, const Profile& profile) {
-  if (!scene.accuracy_rel) return make_plan(scene, profile);
-  const Stage stage(scene, profile);
+sim::Plan simulation_plan(const Scene& scene, const Candidate& candidate) {
+  if (!scene.accuracy_rel) return make_plan(scene, candidate);
+  const Stage stage(scene, candidate);
   sim::ModelRequest request = model_request(scene);
   request.estimate = {};
   return sim::make_plan(stage.scene, request);
@@ -112,18 +128,19 @@ sim::Plan simulation_plan(const Scene& scene, const Profile& profile) {
 
 SimulationResult run_simulation(const Scene& scene, const RunControl& control) {
   const Stopwatch watch;
-  const Profile profile = start_profile(scene);
-  sim::Plan plan = simulation_plan(scene, profile);
+  const Candidate start = start_candidate(scene);
+  sim::Plan plan = simulation_plan(scene, start);
   Target target = scene.accuracy_rel ? make_sharp_target(scene) : make_target(scene);
   if (!target.irradiance_w_per_mm2.empty()) need_light(scene, target);
   control.tell({"simulate", 0.0, std::numeric_limits<double>::quiet_NaN(), 0});
-  Judgement judgement = scene.accuracy_rel ? judge_to_accuracy(scene, target, profile, verdict_stream, false,
+  Judgement judgement = scene.accuracy_rel ? judge_to_accuracy(scene, target, start, verdict_stream, false,
                                                                watch_accuracy(scene, control, "simulate"))
-                                           : judge(scene, target, profile, plan.rung, verdict_stream);
+                                           : judge(scene, target, start, plan.rung, verdict_stream);
   const std::uint64_t photons = emitted(judgement);
   return {std::move(target),
           std::move(plan),
-          {profile, starts(scene.variables), std::move(judgement), states(scene.constraints, profile)},
+          {start.profile, starts(scene.variables), std::move(judgement),
+           states(scene.constraints, start.profile), start.source},
           photons,
           watch.seconds()};
 }
@@ -145,9 +162,9 @@ Landscape run_landscape(const Scene& scene, const RunControl& control) {
   const Target target = make_target(scene);
   need_light(scene, target);
   // Everything that is not drawn stays at its start.
-  const Profile start = start_profile(scene);
-  const sim::Rung rung = make_plan(scene, start).rung;
-  const ProfileFamily family(start, spec.variables, scene.unit);
+  const Candidate start = start_candidate(scene);
+  const SceneFamily family(start, spec.variables, scene.unit);
+  const sim::Rung rung = rung_for(scene, spec, family, start);
   const std::vector<double> once{0.0};
   const std::vector<double>& second = result.axes.size() > 1 ? result.axes[1] : once;
   const double points = static_cast<double>(result.axes[0].size() * second.size());

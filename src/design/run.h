@@ -38,6 +38,7 @@ struct Judged {
   std::vector<double> variables;  ///< in the order and units of scene.variables
   Judgement judgement;
   std::vector<ConstraintState> constraints;  ///< how it stands to the scene's
+  SourceSpec source;                         ///< that it was judged with
 };
 
 /// What `design` found.
@@ -53,7 +54,7 @@ struct DesignResult {
 
 /// What `simulate` will compute the light with: the scene's rung, or where an accuracy is asked for the
 /// cheapest that is valid with a bandwidth of the program's choice.
-sim::Plan simulation_plan(const Scene& scene, const Profile& profile);
+sim::Plan simulation_plan(const Scene& scene, const Candidate& candidate);
 
 /// Searches the scene's variables and judges start and best on fresh streams.
 /// @fails InputError when there is nothing to search or to aim at
@@ -80,5 +81,11 @@ Landscape run_landscape(const Scene& scene, const RunControl& control);
 
 /// The scene's profile with its variables at their start values.
 Profile start_profile(const Scene& scene);
+
+/// The same with the source and the mirror's surface.
+Candidate start_candidate(const Scene& scene);
+
+/// What the scene's variables move.
+SceneFamily family_of(const Scene& scene);
 
 }  // namespace catoptric::design

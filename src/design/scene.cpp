@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "design/constraint_settings.h"
 #include "design/scene_defaults.h"
+#include "design/source_settings.h"
 #include "design/tailored_settings.h"
 #include "design/target_settings.h"
 #include "design/variables.h"
@@ -78,9 +79,11 @@ sim::NearField near_field(const Settings& settings, double unit_mm) {
 void check_paraboloid(const Settings& settings, const SourceSpec& source, const sim::NearField& field) {
   const bool on_axis = source.position_mm.x() == 0 && source.position_mm.y() == 0;
   const bool across = std::abs(std::abs(field.normal().z()) - 1) < 1e-12;  // roundings of a unit vector
-  if (!on_axis || !across)
+  const bool even = source.kind == SourceKind::point && source.exponent == 0;
+  if (!on_axis || !across || !even)
     throw settings.error("target.kind", "the paraboloid's formulas do not hold here",
-                         "eq. 12 and 13 need the source on the z axis and the near field across it",
+                         "eq. 12 and 13 need a point source, alike in all directions, on the z axis and the "
+                         "near field across it",
                          "target.kind = \"reflector\" with the paraboloid's control points");
 }
 
@@ -131,17 +134,49 @@ SearchSpec search(const Settings& settings, double unit_mm) {
           std::move(kernels_mm)};
 }
 
-/// Decision variables in the order of the design vector, not of the file.
-std::vector<optim::Variable> variables(Settings& settings, const Profile& base, LengthUnit unit) {
+bool is_variable(const std::string& name, const Candidate& base) {
+  return parse_scene_variable(name) || parse_component(name, base.profile.points().size());
+}
+
+std::string variables_rule(const Candidate& base) {
+  return fmt::format("variables are r0, z0, w0 ... r{0}, z{0}, w{0}, {1}", base.profile.points().size() - 1,
+                     scene_variable_names());
+}
+
+double start_of(const std::string& name, const Candidate& base, LengthUnit unit) {
+  if (const auto beside = parse_scene_variable(name)) return scene_value(base, *beside, unit);
+  return component_value(base.profile, *parse_component(name, base.profile.points().size()), unit);
+}
+
+/// Bounds of weights, and of what belongs to the scene.
+void check_bounds(const Settings& settings, const optim::Variable& variable, const Candidate& base) {
+  const std::string path = "variables." + variable.name;
+  if (const auto beside = parse_scene_variable(variable.name)) {
+    for (const auto& [key, value] : {std::pair{".lower", variable.lower}, {".upper", variable.upper}})
+      if (const auto defect = value_defect(base, *beside, value))
+        throw settings.error(path + key, fmt::format("{} is no bound for it", value), *defect, "");
+    return;
+  }
+  const Component component = *parse_component(variable.name, base.profile.points().size());
+  if (component.coordinate == 'w' && variable.lower < least_weight)
+    throw settings.error(path + ".lower", fmt::format("{} is no lower bound for a weight", variable.lower),
+                         fmt::format("weights lie between {} and {}", least_weight, greatest_weight), "0.05");
+  if (component.coordinate == 'w' && variable.upper > greatest_weight)
+    throw settings.error(path + ".upper", fmt::format("{} is no upper bound for a weight", variable.upper),
+                         fmt::format("weights lie between {} and {}", least_weight, greatest_weight), "20");
+}
+
+/// Decision variables in the order of the design vector, not of the file; those beside the shape come last.
+std::vector<optim::Variable> variables(Settings& settings, const Candidate& base, LengthUnit unit) {
   std::vector<std::string> names = settings.names_under("variables");
+  const std::size_t points = base.profile.points().size();
   for (const std::string& name : names)
-    if (!parse_component(name, base.points().size()))
-      throw settings.error(
-          "variables." + name + ".step", "is no variable of this reflector",
-          fmt::format("variables are r0, z0, w0 ... r{0}, z{0}, w{0}", base.points().size() - 1),
-          "count control points from 0");
+    if (!is_variable(name, base))
+      throw settings.error("variables." + name + ".step", "is no variable of this reflector",
+                           variables_rule(base), "count control points from 0");
   const auto place = [&](const std::string& name) {
-    const Component component = *parse_component(name, base.points().size());
+    if (const auto beside = parse_scene_variable(name)) return 3 * points + static_cast<std::size_t>(*beside);
+    const Component component = *parse_component(name, points);
     return 3 * component.point + std::string_view("rzw").find(component.coordinate);
   };
   std::sort(names.begin(), names.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
@@ -153,18 +188,11 @@ std::vector<optim::Variable> variables(Settings& settings, const Profile& base, 
       if (!settings.has(path + needed))
         throw settings.error(path + needed, "is missing", "a variable needs step, lower and upper",
                              path + needed + " = 1");
-    const Component component = *parse_component(name, base.points().size());
     if (!settings.has(path + ".start"))
-      settings.set({path + ".start", fmt::format("{}", component_value(base, component, unit)), "default"});
+      settings.set({path + ".start", fmt::format("{}", start_of(name, base, unit)), "default"});
     optim::Variable variable{name, *settings.number(path + ".start"), *settings.number(path + ".step"),
                              *settings.number(path + ".lower"), *settings.number(path + ".upper")};
-    if (component.coordinate == 'w' && variable.lower < least_weight)
-      throw settings.error(path + ".lower", fmt::format("{} is no lower bound for a weight", variable.lower),
-                           fmt::format("weights lie between {} and {}", least_weight, greatest_weight),
-                           "0.05");
-    if (component.coordinate == 'w' && variable.upper > greatest_weight)
-      throw settings.error(path + ".upper", fmt::format("{} is no upper bound for a weight", variable.upper),
-                           fmt::format("weights lie between {} and {}", least_weight, greatest_weight), "20");
+    check_bounds(settings, variable, base);
     if (!(variable.lower < variable.upper))
       throw settings.error(path + ".upper", "the bounds leave no room", "lower must be less than upper",
                            "swap them");
@@ -178,7 +206,7 @@ std::vector<optim::Variable> variables(Settings& settings, const Profile& base, 
   return list;
 }
 
-std::optional<LandscapeSpec> landscape(const Settings& settings, const Profile& base) {
+std::optional<LandscapeSpec> landscape(const Settings& settings, const Candidate& base) {
   const auto names = settings.texts("landscape.variables");
   if (!names) {
     for (const char* key : {"landscape.lower", "landscape.upper", "landscape.steps", "landscape.greatest"})
@@ -192,10 +220,9 @@ std::optional<LandscapeSpec> landscape(const Settings& settings, const Profile& 
                          "a landscape has one or two different variables", "[\"w1\", \"r2\"]");
   LandscapeSpec spec{*names, {}, {}, {}, settings.number("landscape.greatest")};
   for (const std::string& name : *names)
-    if (!parse_component(name, base.points().size()))
-      throw settings.error(
-          "landscape.variables", name + " is no variable of this reflector",
-          fmt::format("variables are r0, z0, w0 ... r{0}, z{0}, w{0}", base.points().size() - 1), "");
+    if (!is_variable(name, base))
+      throw settings.error("landscape.variables", name + " is no variable of this reflector",
+                           variables_rule(base), "");
   for (const char* key : {"landscape.lower", "landscape.upper", "landscape.steps"})
     if (!settings.has(key) || settings.numbers(key)->size() != names->size())
       throw settings.error(key, "does not fit the variables",
@@ -253,7 +280,7 @@ TailoredSpec tailored(const Settings& settings, double unit_mm) {
 Scene build_scene(Settings settings, std::vector<std::string> notes) {
   const LengthUnit unit = scene_unit(settings);
   const double unit_mm = millimetres_per(unit);
-  const SourceSpec source{vector(settings, "source.position", unit_mm), *settings.number("source.power")};
+  const SourceSpec source = source_spec(settings, unit_mm);
   Profile base = profile(settings, "reflector", unit_mm);
   sim::NearField field = near_field(settings, unit_mm);
   TargetSpec desired = target(settings, unit_mm, field);

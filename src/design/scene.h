@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "cad/engines.h"
 #include "cad/export.h"
+#include "design/candidate.h"
 #include "design/constraints.h"
 #include "design/settings.h"
 #include "design/tailored_curve.h"
@@ -19,11 +20,6 @@
 #include "sim/simulation.h"
 
 namespace catoptric::design {
-
-struct SourceSpec {
-  Vector3 position_mm;
-  double power_w;
-};
 
 /// uniform and ring are zones: one, and two.
 enum class TargetKind { none, paraboloid, reflector, csv, zones, gaussian, radial };
@@ -129,6 +125,8 @@ struct Scene {
   SensitivitySpec sensitivity;
   cad::ExportOptions export_options;
 
+  /// A mirror of this shape in the scene as it is written.
+  Candidate with(const Profile& shape) const { return {shape, source, mirror}; }
   double to_scene_unit(double mm) const { return mm / millimetres_per(unit); }
 };
 

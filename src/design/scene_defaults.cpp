@@ -7,6 +7,7 @@
 
 #include "base/profile.h"
 #include "cad/profile_import.h"
+#include "design/source_settings.h"
 #include "design/target_settings.h"
 
 namespace catoptric::design {
@@ -188,8 +189,7 @@ LengthUnit scene_unit(const Settings& settings) {
 std::vector<std::string> complete(Settings& settings) {
   for (const Key& key : scene_keys())
     if (!key.standard.empty()) fill(settings, std::string(key.path), std::string(key.standard));
-  if (!settings.has("source.power"))
-    throw settings.error("source.power", "is missing", "a source needs its power in W", "source.power = 1.0");
+  complete_source(settings);
   std::vector<std::string> notes = resolve_profile_file(settings);
   complete_start(settings);
   complete_spline(settings, "reflector");

@@ -50,7 +50,12 @@ std::string scene_text(const Scene& scene) {
     const auto dot = path.rfind('.');
     const std::string table = dot == std::string::npos ? "" : path.substr(0, dot);
     if (table != open_table) {
-      text += fmt::format("\n[{}]\n", table);
+      const auto dot_before = table.find('.');
+      const bool quote =
+          table.find('.', dot_before + 1) != std::string::npos && dot_before != std::string::npos;
+      text += quote
+                  ? fmt::format("\n[{}.\"{}\"]\n", table.substr(0, dot_before), table.substr(dot_before + 1))
+                  : fmt::format("\n[{}]\n", table);
       open_table = table;
     }
     text += fmt::format("{} = {}\n", path.substr(dot == std::string::npos ? 0 : dot + 1),

@@ -46,7 +46,7 @@ void append(optim::Outcome& all, optim::Outcome stage, const std::string& kernel
 /// @from graduated optimization: Blake & Zisserman 1987
 optim::Outcome search_coarse_to_fine(const Scene& scene, sim::Rung rung, const Target& target,
                                      const RunControl& control) {
-  const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
+  const SceneFamily family = family_of(scene);
   optim::Outcome all{};
   all.best = starts(scene.variables);
   all.start_value = value_at(scene, rung, target, family, all.best);
@@ -97,13 +97,13 @@ std::vector<double> starts(const std::vector<optim::Variable>& variables) {
   return list;
 }
 
-double value_at(const Scene& scene, sim::Rung rung, const Target& target, const ProfileFamily& family,
+double value_at(const Scene& scene, sim::Rung rung, const Target& target, const SceneFamily& family,
                 std::span<const double> x) {
-  const auto profile = family.at(x);
-  if (!profile) return std::numeric_limits<double>::infinity();
-  if (const double broken = violation(scene.constraints, *profile); broken > 0)
+  const auto candidate = family.at(x);
+  if (!candidate) return std::numeric_limits<double>::infinity();
+  if (const double broken = violation(scene.constraints, candidate->profile); broken > 0)
     return infeasible_objective(broken);
-  return objective(scene, total_by_rung(scene, rung, *profile, target.samples, search_stream),
+  return objective(scene, total_by_rung(scene, rung, *candidate, target.samples, search_stream),
                    target.irradiance_w_per_mm2);
 }
 

@@ -20,7 +20,7 @@ std::vector<double> starts(const std::vector<optim::Variable>& variables);
 
 /// The objective of one design vector on the search's stream; infinity where no mirror can be built,
 /// and from infeasible_floor on where it breaks constraints.
-double value_at(const Scene& scene, sim::Rung rung, const Target& target, const ProfileFamily& family,
+double value_at(const Scene& scene, sim::Rung rung, const Target& target, const SceneFamily& family,
                 std::span<const double> x);
 
 /// Looks for a better mirror by the scene's method, from its variables' start values: with restarts all over

@@ -46,12 +46,12 @@ bool Fit::evaluate(std::span<const double> x, std::span<double> residuals, doubl
   if (!profile || violation(scene.constraints, *profile) > 0) return false;
   const Stage stage(scene, *profile);
   const std::vector<double> direct = sim::direct_field(stage.scene, target.samples);
+  const auto& source = dynamic_cast<const sim::PointSource&>(*stage.source);  // which ray tubes have proven
   const sim::FieldPlane plane{scene.near_field.center_mm().z(), scene.near_field.normal().z() > 0};
   if (!jacobian)
-    return fill(sim::tubes_field(stage.source, *profile, scene.mirror, plane, radii_mm, tubes), direct,
-                residuals);
+    return fill(sim::tubes_field(source, *profile, scene.mirror, plane, radii_mm, tubes), direct, residuals);
   const sim::TubesJacobian by_all =
-      sim::tubes_jacobian(stage.source, *profile, scene.mirror, plane, radii_mm, tubes);
+      sim::tubes_jacobian(source, *profile, scene.mirror, plane, radii_mm, tubes);
   for (std::size_t i = 0; i < residuals.size(); ++i)
     for (std::size_t j = 0; j < columns.size(); ++j)
       *jacobian++ =
@@ -70,6 +70,9 @@ void require_fit(const Scene& scene, sim::Rung rung) {
   if (rung != sim::Rung::tubes)
     refuse("its derivatives come from ray tubes, and this scene's light is computed by " +
            std::string(sim::name(rung)));
+  for (const optim::Variable& variable : scene.variables)
+    if (parse_scene_variable(variable.name))
+      refuse("its derivatives are by the mirror's shape, not by " + variable.name);
   if (scene.mirror.transmittance > 0) refuse("its derivatives are for mirrors that let no light through");
 }
 

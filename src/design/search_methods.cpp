@@ -104,7 +104,7 @@ optim::Outcome by_method(const Scene& scene, const Target& target, const optim::
 
 optim::Outcome search_once(const Scene& scene, sim::Rung rung, const Target& target,
                            const RunControl& control) {
-  const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
+  const SceneFamily family = family_of(scene);
   Telling telling(scene, control);
   const optim::Problem problem{scene.variables, [&](std::span<const double> x) {
                                  return telling.evaluated(value_at(scene, rung, target, family, x));

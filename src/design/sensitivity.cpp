@@ -123,9 +123,13 @@ std::size_t Sensitivity::budgeted() const {
                                           [](const auto& each) { return each.tolerance().has_value(); }));
 }
 
-Sensitivity run_sensitivity(const Scene& scene, const RunControl& control) {
+Sensitivity run_sensitivity(const Scene& written, const RunControl& control) {
   const auto begin = std::chrono::steady_clock::now();
-  Sensitivity result{start_profile(scene), {}, {}, 0, scene.sensitivity.allowed_rel, {}, 0, 0};
+  Candidate start = start_candidate(written);
+  Scene scene = written;
+  scene.source = start.source;
+  scene.mirror = start.mirror;
+  Sensitivity result{std::move(start.profile), {}, {}, 0, scene.sensitivity.allowed_rel, {}, 0, 0};
   FieldChanger changer(scene, result.profile);
   const std::vector<Deviation> list = deviations(scene, result.profile);
   for (const Deviation& deviation : list) {

@@ -94,7 +94,7 @@ std::vector<std::string> Settings::names_under(std::string_view prefix) const {
   for (const auto& [path, setting] : settings_) {
     if (!path.starts_with(start)) continue;
     std::string name = path.substr(start.size());
-    name = name.substr(0, name.find('.'));
+    name = name.substr(0, name.rfind('.'));
     if (names.empty() || names.back() != name) names.push_back(name);
   }
   return names;

@@ -57,7 +57,7 @@ class Settings {
   std::optional<Points> points(std::string_view path) const;
   std::optional<Texts> texts(std::string_view path) const;
 
-  /// The names X for which some key `prefix.X...` is set, in order.
+  /// The names X for which some key `prefix.X.Y` is set, in order; X may have dots, Y has none.
   std::vector<std::string> names_under(std::string_view prefix) const;
 
   /// All settings by path.

@@ -13,10 +13,10 @@ std::unique_ptr<Reflector> make_reflector(const ModelSpec& model, const Profile&
 
 }  // namespace
 
-Stage::Stage(const Scene& spec, const Profile& profile)
-    : source(spec.source.position_mm, spec.source.power_w),
-      mirror(make_reflector(spec.model, profile)),
-      scene{source, *mirror, spec.mirror, spec.near_field} {}
+Stage::Stage(const Scene& spec, const Candidate& candidate)
+    : source(make_source(candidate.source)),
+      mirror(make_reflector(spec.model, candidate.profile)),
+      scene{*source, *mirror, candidate.mirror, spec.near_field} {}
 
 sim::ModelRequest model_request(const Scene& scene) {
   sim::ModelRequest request{scene.model.estimate, scene.model.rung, {}};

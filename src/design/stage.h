@@ -11,8 +11,9 @@ namespace catoptric::design {
 /// One mirror in the scene, ready for light: the source, and the mirror in the engine that the scene asks
 /// for.
 struct Stage {
-  Stage(const Scene& spec, const Profile& profile);
-  sim::PointSource source;
+  Stage(const Scene& spec, const Candidate& candidate);
+  Stage(const Scene& spec, const Profile& profile) : Stage(spec, spec.with(profile)) {}
+  std::unique_ptr<sim::Source> source;
   std::unique_ptr<Reflector> mirror;
   sim::Scene scene;
 };

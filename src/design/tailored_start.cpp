@@ -83,7 +83,8 @@ double light_error_rel(const Scene& scene, const TailoringTask& task, const Prof
   for (const double radius_mm : radii) peak = std::max(peak, task.wanted.w_per_mm2(radius_mm));
   sim::TubesOptions options;
   options.pointwise_tolerance_w_per_mm2 = 1e-4 * peak;
-  const sim::PointSource source(scene.source.position_mm, scene.source.power_w);
+  const sim::PointSource source(scene.source.position_mm, scene.source.power_w, far_exponent(scene.source),
+                                scene.source.axis);
   const sim::FieldPlane plane{task.layout.field_z_mm, scene.near_field.normal().z() > 0};
   const sim::TubesField field = sim::tubes_field(source, profile, scene.mirror, plane, radii, options);
   for (std::size_t i = 0; i < radii.size(); ++i) {

@@ -30,6 +30,13 @@ void check_symmetry(const Scene& scene, double apex_side) {
   if (std::hypot(source.x(), source.y()) > Tolerance::for_scale(reach_mm).length_mm)
     refuse(scene, "source.position", "a tailored start needs the source on the axis",
            "its flux balance counts rings about the z axis", "start = \"profile\"");
+  if (make_source(scene.source)->tilt_rad() > Tolerance::for_scale(1).angle_rad)
+    refuse(scene, "source.axis", "a tailored start needs a source that shines alike round the axis",
+           "its flux balance counts rings about the z axis", "start = \"profile\"");
+  for (const optim::Variable& variable : scene.variables)
+    if (parse_scene_variable(variable.name))
+      refuse(scene, "start", "a tailored start moves the mirror's shape alone",
+             variable.name + " is no part of it", "start = \"profile\"");
   if (std::hypot(normal.x(), normal.y()) > Tolerance::for_scale(1).angle_rad)
     refuse(scene, "near_field.normal", "a tailored start needs the near field across the axis",
            "its flux balance counts rings about the z axis", "start = \"profile\"");
@@ -58,8 +65,9 @@ class Maker {
   Maker(const Scene& scene, double apex_side) : scene_(scene), target_(target_of(scene)) {
     check_symmetry(scene, apex_side);
     layout_ = {scene.source.position_mm.z(), scene.near_field.center_mm().z(), apex_side};
-    flux_ = polar_flux(scene.source.power_w, 0, true);
-    const auto source = std::make_shared<sim::PointSource>(scene.source.position_mm, scene.source.power_w);
+    flux_ =
+        polar_flux(scene.source.power_w, far_exponent(scene.source), scene.source.axis.z() * apex_side > 0);
+    const std::shared_ptr<sim::Source> source = make_source(scene.source);
     direct_ = [source, z_mm = layout_.field_z_mm, normal = scene.near_field.normal()](double radius_mm) {
       return sim::unshaded_w_per_mm2(*source, {{radius_mm, 0, z_mm}, normal});
     };

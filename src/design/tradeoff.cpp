@@ -188,9 +188,13 @@ std::vector<TradeChoice> choose(const std::vector<TradeRow>& rows, double refere
   return choices;
 }
 
-Tradeoff run_tradeoff(const Scene& scene, const RunControl& control) {
+Tradeoff run_tradeoff(const Scene& written, const RunControl& control) {
   const auto begin = Clock::now();
-  const Profile profile = start_profile(scene);
+  const Candidate start = start_candidate(written);
+  const Profile& profile = start.profile;
+  Scene scene = written;
+  scene.source = start.source;
+  scene.mirror = start.mirror;
   const std::vector<sim::FieldSample> samples = scene.near_field.samples(scene.samples);
   control.tell({"reference", 0.0, std::numeric_limits<double>::quiet_NaN(), 0});
   const Truth truth = find_truth(scene, profile, samples);

@@ -50,9 +50,9 @@ Json judged_json(const design::Scene& scene, const design::Judged& judged) {
           {"objective", objective_json(scene, judged.judgement)}};
 }
 
-Json energy_json(const design::Scene& scene, const sim::EnergyLedger& energy) {
+Json energy_json(const design::SourceSpec& source, const sim::EnergyLedger& energy) {
   return {{"unit", "W"},
-          {"source", scene.source.power_w},
+          {"source", source.power_w},
           {"towards_mirror", energy.emitted_w},
           {"missed_mirror", energy.missed_w},
           {"absorbed", energy.absorbed_w},
@@ -135,7 +135,7 @@ Json result_json(const design::Scene& scene, const design::DesignResult& result)
   json["seconds_search"] = result.search_seconds;
   json["verdict_model"] = std::string(name(judgement.rung));
   json["accuracy"] = accuracy_json(judgement);
-  json["energy"] = energy_json(scene, judgement.energy);
+  json["energy"] = energy_json(result.best.source, judgement.energy);
   json["reflector"] = reflector_json(scene, result.best.profile);
   json["profile_notes"] = scene.profile_notes;
   return json;
@@ -151,7 +151,7 @@ Json result_json(const design::Scene& scene, const design::SimulationResult& res
   json["seconds"] = result.seconds;
   json.update(run_json(scene, result.mirror.judgement.rung));
   json["accuracy"] = accuracy_json(result.mirror.judgement);
-  json["energy"] = energy_json(scene, result.mirror.judgement.energy);
+  json["energy"] = energy_json(result.mirror.source, result.mirror.judgement.energy);
   json["reflector"] = reflector_json(scene, result.mirror.profile);
   json["profile_notes"] = scene.profile_notes;
   return json;

@@ -22,7 +22,8 @@ std::string metric_label(const design::Scene& scene) {
 }
 
 std::string variable_label(const design::Scene& scene, const std::string& name) {
-  return name.front() == 'w' ? name : fmt::format("{} ({})", name, unit_of(scene));
+  const std::string unit = design::unit_of_variable(name, scene.unit);
+  return unit.empty() ? name : fmt::format("{} ({})", name, unit);
 }
 
 GeneratrixCurve generatrix_curve(const design::Scene& scene, const Profile& profile, const std::string& label,
@@ -53,12 +54,13 @@ std::optional<Profile> target_profile(const design::Scene& scene) {
       {{0, focus_z + a, 1}, {rim / 2, focus_z + a, 1}, {rim, focus_z + a - rim * rim / (4 * a), 1}});
 }
 
-GeneratrixFigure generatrix_figure(const design::Scene& scene, std::vector<GeneratrixCurve> curves) {
+GeneratrixFigure generatrix_figure(const design::Scene& scene, const design::SourceSpec& source,
+                                   std::vector<GeneratrixCurve> curves) {
   GeneratrixFigure figure{"Generatrix", unit_of(scene), std::move(curves), {}, {}};
   if (const auto wanted = target_profile(scene))
     figure.curves.insert(figure.curves.begin(),
                          generatrix_curve(scene, *wanted, "target", CurveRole::target));
-  const Vector3& source_mm = scene.source.position_mm;
+  const Vector3& source_mm = source.position_mm;
   figure.source = PlanePoint{scene.to_scene_unit(std::hypot(source_mm.x(), source_mm.y())),
                              scene.to_scene_unit(source_mm.z())};
   if (std::abs(scene.near_field.normal().z()) >
@@ -194,8 +196,9 @@ std::vector<NamedFigure> design_figures(const design::Scene& scene, const design
   std::vector<NamedFigure> figures{
       {"generatrix", "Generatrix before and after",
        generatrix_script(generatrix_figure(
-           scene, {generatrix_curve(scene, result.start.profile, "start", CurveRole::initial),
-                   generatrix_curve(scene, result.best.profile, "result", CurveRole::obtained)}))}};
+           scene, result.best.source,
+           {generatrix_curve(scene, result.start.profile, "start", CurveRole::initial),
+            generatrix_curve(scene, result.best.profile, "result", CurveRole::obtained)}))}};
   figures.push_back(radial_figure(scene, result.target, result.best.judgement));
   figures.push_back(convergence_figure(scene, result.search));
   for (NamedFigure& figure : irradiance_figures(
@@ -212,7 +215,8 @@ std::vector<NamedFigure> simulation_figures(const design::Scene& scene,
   std::vector<NamedFigure> figures{
       {"generatrix", "Generatrix",
        generatrix_script(generatrix_figure(
-           scene, {generatrix_curve(scene, result.mirror.profile, "mirror", CurveRole::obtained)}))}};
+           scene, result.mirror.source,
+           {generatrix_curve(scene, result.mirror.profile, "mirror", CurveRole::obtained)}))}};
   figures.push_back(radial_figure(scene, result.target, result.mirror.judgement));
   std::vector<FieldView> views{{"result", "Irradiance", total(result.mirror.judgement)}};
   if (result.mirror.judgement.has_objective)

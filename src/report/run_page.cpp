@@ -90,13 +90,12 @@ PageSection model_section(const design::Scene& scene, const sim::Plan& plan) {
     section.facts.emplace_back(finding.feature, finding.found + ": " + finding.consequence);
   section.paragraphs = {
       fmt::format(
-          "Light from a point source meets the true surface of revolution (engine {}); of it {:.4g} is "
+          "Light from the source meets the true surface of revolution (engine {}); of it {:.4g} is "
           "reflected specularly, {:.4g} passes and the rest is absorbed, as often as it meets it. Direct "
           "light is computed, with the mirror's shadow.",
           name(scene.model.engine), scene.mirror.reflectance, scene.mirror.transmittance),
-      "Left out: the size of the source, scattering and the mirror's figure error, colour, polarisation, and "
-      "all "
-      "surroundings but the near field. The kernel's bias is extrapolated from two bandwidths; at jumps of "
+      "Left out: scattering and the mirror's figure error, colour, polarisation, and all surroundings but "
+      "the near field. The kernel's bias is extrapolated from two bandwidths; at jumps of "
       "the "
       "field (the rim of a beam, a fold) it is underestimated."};
   return section;

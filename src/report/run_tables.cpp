@@ -13,10 +13,6 @@ std::string objective_unit(const design::Scene& scene) {
   return scene.search.metric == design::Metric::rmse ? "W/m^2" : "";
 }
 
-std::string variable_unit(const design::Scene& scene, const std::string& name) {
-  return name.front() == 'w' ? "" : std::string(symbol(scene.unit));
-}
-
 /// A named figure of a run, for the study's table; nothing when the run has no such figure.
 Cell figure(const StudyRow& row, const std::string& name) {
   if (!row.designed && !row.simulated) return {};
@@ -103,7 +99,7 @@ Table convergence_table(const design::Scene& scene, const optim::Outcome& outcom
                {"value", objective_unit(scene)}},
               {}};
   for (const auto& variable : scene.variables)
-    table.columns.push_back({variable.name, variable_unit(scene, variable.name)});
+    table.columns.push_back({variable.name, design::unit_of_variable(variable.name, scene.unit)});
   for (const optim::Iterate& each : outcome.history) {
     std::vector<Cell> row{static_cast<long long>(each.k),
                           static_cast<long long>(each.iteration),
@@ -119,7 +115,7 @@ Table convergence_table(const design::Scene& scene, const optim::Outcome& outcom
 
 Table landscape_table(const design::Scene& scene, const design::Landscape& landscape) {
   Table table;
-  for (const std::string& name : landscape.names) table.columns.push_back({name, variable_unit(scene, name)});
+  for (const std::string& name : landscape.names) table.columns.push_back({name, design::unit_of_variable(name, scene.unit)});
   table.columns.push_back({"value", objective_unit(scene)});
   std::size_t next = 0;
   for (double a : landscape.axes[0]) {
@@ -135,7 +131,8 @@ Table landscape_table(const design::Scene& scene, const design::Landscape& lands
 Table summary_table(const design::Scene& scene, const design::DesignResult& result) {
   Table table{{{"figure", ""}, {"unit", ""}, {"start", ""}, {"result", ""}}, {}};
   for (std::size_t i = 0; i < scene.variables.size(); ++i)
-    table.rows.push_back({scene.variables[i].name, variable_unit(scene, scene.variables[i].name),
+    table.rows.push_back({scene.variables[i].name,
+                          design::unit_of_variable(scene.variables[i].name, scene.unit),
                           result.start.variables[i], result.best.variables[i]});
   const design::Figure &before = result.start.judgement.objective, &after = result.best.judgement.objective;
   const std::string metric(name(scene.search.metric)), unit = objective_unit(scene);
@@ -152,8 +149,9 @@ Table simulation_table(const design::Scene& scene, const design::SimulationResul
   const design::Judgement& judgement = result.mirror.judgement;
   Table table{{{"figure", ""}, {"unit", ""}, {"value", ""}}, {}};
   for (std::size_t i = 0; i < scene.variables.size(); ++i)
-    table.rows.push_back(
-        {scene.variables[i].name, variable_unit(scene, scene.variables[i].name), result.mirror.variables[i]});
+    table.rows.push_back({scene.variables[i].name,
+                          design::unit_of_variable(scene.variables[i].name, scene.unit),
+                          result.mirror.variables[i]});
   if (judgement.has_objective) {
     const std::string metric(name(scene.search.metric)), unit = objective_unit(scene);
     table.rows.push_back({metric, unit, judgement.objective.value});
@@ -171,7 +169,7 @@ Table simulation_table(const design::Scene& scene, const design::SimulationResul
     table.rows.push_back({"relative error, at most (95 %)", "", judgement.accuracy->error95_rel});
   }
   table.rows.push_back({"model", "", std::string(name(judgement.rung))});
-  table.rows.push_back({"source", "W", scene.source.power_w});
+  table.rows.push_back({"source", "W", result.mirror.source.power_w});
   if (judgement.rung == sim::Rung::tubes) return table;  // tubes keep no ledger
   table.rows.push_back({"emitted towards the mirror", "W", judgement.energy.emitted_w});
   table.rows.push_back({"  missed it", "W", judgement.energy.missed_w});

@@ -1,0 +1,130 @@
+#include "design/candidate.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/contract.h"
+#include "sim/disc_source.h"
+
+namespace catoptric::design {
+namespace {
+
+constexpr std::array<std::pair<SceneVariable, std::string_view>, 6> names{
+    {{SceneVariable::source_x, "source.x"},
+     {SceneVariable::source_y, "source.y"},
+     {SceneVariable::source_z, "source.z"},
+     {SceneVariable::source_power, "source.power"},
+     {SceneVariable::source_exponent, "source.exponent"},
+     {SceneVariable::reflectance, "reflector.reflectance"}}};
+
+/// The number in a candidate that a variable stands for: lengths in mm.
+template <typename AnyCandidate>
+auto& number_of(AnyCandidate& candidate, SceneVariable variable) {
+  switch (variable) {
+    case SceneVariable::source_x:
+      return candidate.source.position_mm[0];
+    case SceneVariable::source_y:
+      return candidate.source.position_mm[1];
+    case SceneVariable::source_z:
+      return candidate.source.position_mm[2];
+    case SceneVariable::source_power:
+      return candidate.source.power_w;
+    case SceneVariable::source_exponent:
+      return candidate.source.exponent;
+    case SceneVariable::reflectance:
+      break;
+  }
+  return candidate.mirror.reflectance;
+}
+
+std::vector<std::string> shape_names(const std::vector<std::string>& all) {
+  std::vector<std::string> shape;
+  for (const std::string& each : all)
+    if (!parse_scene_variable(each)) shape.push_back(each);
+  return shape;
+}
+
+}  // namespace
+
+std::unique_ptr<sim::Source> make_source(const SourceSpec& spec) {
+  if (spec.kind == SourceKind::disc)
+    return std::make_unique<sim::LambertianDisc>(spec.position_mm, spec.radius_mm, spec.axis, spec.power_w);
+  return std::make_unique<sim::PointSource>(spec.position_mm, spec.power_w, spec.exponent, spec.axis);
+}
+
+double far_exponent(const SourceSpec& spec) { return spec.kind == SourceKind::disc ? 1 : spec.exponent; }
+
+std::optional<SceneVariable> parse_scene_variable(std::string_view name) {
+  for (const auto& [variable, text] : names)
+    if (text == name) return variable;
+  return std::nullopt;
+}
+
+std::string scene_variable_names() {
+  std::string list;
+  for (const auto& [variable, text] : names) list += fmt::format("{}{}", list.empty() ? "" : ", ", text);
+  return list;
+}
+
+bool is_length(SceneVariable variable) {
+  return variable == SceneVariable::source_x || variable == SceneVariable::source_y ||
+         variable == SceneVariable::source_z;
+}
+
+std::string unit_of_variable(std::string_view name, LengthUnit unit) {
+  const auto beside = parse_scene_variable(name);
+  if (beside == SceneVariable::source_power) return "W";
+  const bool length = beside ? is_length(*beside) : name.front() != 'w';
+  return length ? std::string(symbol(unit)) : "";
+}
+
+double scene_value(const Candidate& candidate, SceneVariable variable, LengthUnit unit) {
+  return number_of(candidate, variable) / (is_length(variable) ? millimetres_per(unit) : 1);
+}
+
+std::optional<std::string> value_defect(const Candidate& base, SceneVariable variable, double value) {
+  if (!std::isfinite(value)) return "it is a finite number";
+  if (variable == SceneVariable::source_power && !(value > 0)) return "a source's power is positive";
+  if (variable == SceneVariable::source_exponent) {
+    if (base.source.kind != SourceKind::point) return "only a point source has an exponent";
+    // Exponent 0 is another law, with light behind too, which no small exponent comes near.
+    if (!(value > 0 && value <= sim::greatest_exponent))
+      return fmt::format("an exponent that varies lies above 0, up to {}", sim::greatest_exponent);
+  }
+  if (variable == SceneVariable::reflectance && !(value >= 0 && value + base.mirror.transmittance <= 1))
+    return "reflectance lies between 0 and what the transmittance leaves of 1";
+  return std::nullopt;
+}
+
+SceneFamily::SceneFamily(Candidate base, const std::vector<std::string>& all, LengthUnit unit)
+    : base_(std::move(base)), shape_(base_.profile, shape_names(all), unit), unit_mm_(millimetres_per(unit)) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (const auto variable = parse_scene_variable(all[i])) {
+      scene_places_.push_back(i);
+      scene_variables_.push_back(*variable);
+    } else {
+      shape_places_.push_back(i);
+    }
+  }
+}
+
+std::optional<Candidate> SceneFamily::at(std::span<const double> values) const {
+  CATOPTRIC_EXPECTS(values.size() == shape_places_.size() + scene_places_.size());
+  std::vector<double> shape;
+  for (const std::size_t place : shape_places_) shape.push_back(values[place]);
+  auto profile = shape_.at(shape);
+  if (!profile) return std::nullopt;
+  Candidate candidate{std::move(*profile), base_.source, base_.mirror};
+  for (std::size_t i = 0; i < scene_places_.size(); ++i) {
+    const SceneVariable variable = scene_variables_[i];
+    const double value = values[scene_places_[i]];
+    if (value_defect(base_, variable, value)) return std::nullopt;
+    number_of(candidate, variable) = is_length(variable) ? value * unit_mm_ : value;
+  }
+  return candidate;
+}
+
+}  // namespace catoptric::design

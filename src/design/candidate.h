@@ -1,0 +1,87 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/profile.h"
+#include "base/units.h"
+#include "design/variables.h"
+#include "sim/material.h"
+#include "sim/source.h"
+
+namespace catoptric::design {
+
+enum class SourceKind { point, disc };
+
+struct SourceSpec {
+  Vector3 position_mm;
+  double power_w;
+  SourceKind kind = SourceKind::point;
+  double exponent = 0;              ///< of a point
+  Vector3 axis = Vector3::UnitZ();  ///< of a point's intensity; a disc's normal
+  double radius_mm = 0;             ///< of a disc
+};
+
+/// The source as the light room has it.
+std::unique_ptr<sim::Source> make_source(const SourceSpec& spec);
+
+/// The exponent of its intensity's cosine from afar: a disc is Lambert's, 0 is alike in all directions.
+double far_exponent(const SourceSpec& spec);
+
+/// What a design vector decides: the mirror's shape, and the source and the mirror's surface it is judged
+/// with.
+struct Candidate {
+  Profile profile;
+  SourceSpec source;
+  sim::Material mirror;
+};
+
+/// A variable beside the shape.
+enum class SceneVariable { source_x, source_y, source_z, source_power, source_exponent, reflectance };
+
+/// "source.z" -> source_z; nothing for other names.
+std::optional<SceneVariable> parse_scene_variable(std::string_view name);
+
+/// All names, for messages.
+std::string scene_variable_names();
+
+/// Whether it is a length, in the scene's unit.
+bool is_length(SceneVariable variable);
+
+/// The unit a variable of any kind is written in; empty for plain numbers.
+std::string unit_of_variable(std::string_view name, LengthUnit unit);
+
+/// Its value in a candidate: lengths in `unit`, power in W.
+double scene_value(const Candidate& candidate, SceneVariable variable, LengthUnit unit);
+
+/// What keeps a value from being this variable's, in words, or nothing.
+std::optional<std::string> value_defect(const Candidate& base, SceneVariable variable, double value);
+
+/// Moves named variables of a fixed candidate, shape and all; the rest stays.
+class SceneFamily {
+ public:
+  /// @in names of components of the profile or of scene variables, in any order
+  SceneFamily(Candidate base, const std::vector<std::string>& names, LengthUnit unit);
+
+  /// The candidate with the variables set, or nothing where these values make none (the generatrix crosses
+  /// the axis, no power, ...).
+  /// @cost  a profile's; no light
+  std::optional<Candidate> at(std::span<const double> values) const;
+
+  const Candidate& base() const { return base_; }
+  /// Places in the vector of the variables beside the shape.
+  const std::vector<std::size_t>& scene_places() const { return scene_places_; }
+
+ private:
+  Candidate base_;
+  ProfileFamily shape_;
+  std::vector<std::size_t> shape_places_, scene_places_;
+  std::vector<SceneVariable> scene_variables_;
+  double unit_mm_;
+};
+
+}  // namespace catoptric::design

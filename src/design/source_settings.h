@@ -1,0 +1,16 @@
+#pragma once
+
+#include "design/candidate.h"
+#include "design/settings.h"
+
+namespace catoptric::design {
+
+/// Writes the defaults of the source's keys in.
+/// @fails InputError for keys that do not belong to the source's kind, or are missing
+void complete_source(Settings& settings);
+
+/// The source of complete settings.
+/// @fails InputError for an axis without direction
+SourceSpec source_spec(const Settings& settings, double unit_mm);
+
+}  // namespace catoptric::design
