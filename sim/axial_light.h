@@ -41,8 +41,8 @@ struct AxialLight {
     const double far = std::max(0.0, up * std::cos(up > 0 ? high_rad : low_rad));
     const double power = law.exponent + 1;
     if (!(near > 0)) return 0;
-    // near^power - far^power, where near = far + 2 half.
-    if (!(far > 0)) return std::pow(near, power);
+    // near^power - far^power, where near = far + 2 half; of near ones without their cancellation.
+    if (!(2 * half < far)) return std::pow(near, power) - std::pow(far, power);
     return std::pow(far, power) * std::expm1(power * std::log1p(2 * half / far));
   }
 

@@ -58,7 +58,7 @@ TEST_CASE("a disc's direct light on its axis is M R^2 / (R^2 + h^2)") {
 TEST_CASE(
     "a disc's direct light anywhere is what a sum over its parts gives, cut by the element's plane or not") {
   int cut = 0, whole = 0;
-  for (std::uint64_t i = 0; i < 200; ++i) {
+  for (std::uint64_t i = 0; i < 120; ++i) {
     RandomStream stream(3, Purpose::test, i);
     const auto number = [&] { return 2 * stream.uniform() - 1; };
     const Vector3 axis = Vector3(number(), number(), number()).normalized();
@@ -76,8 +76,8 @@ TEST_CASE(
     CHECK(disc.unhindered_w_per_mm2(point, normal) ==
           Approx(wanted).epsilon(1e-4).margin(parted ? 1e-5 * power : 0));
   }
-  CHECK(cut > 15);
-  CHECK(whole > 15);
+  CHECK(cut > 8);
+  CHECK(whole > 8);
 }
 
 TEST_CASE("a small disc is a point by Lambert's law, and a point's direct light follows its exponent") {
@@ -166,7 +166,9 @@ TEST_CASE("tubes' smoothed light of an exponent carries all the power") {
     CHECK(field.error_w_per_mm2 <= options.tolerance_w_per_mm2);
     double sum = 0;
     for (int i = 0; i < steps; ++i) sum += field.irradiance[i] * 2 * pi * radii[i] * 110.0 / steps;
-    CHECK(sum == Approx(power).epsilon(2e-6));  // the tolerance over the area, and the sum's own error
+    // The midpoint rule's first error, from the slope on the axis; what is left is the tolerance on the area.
+    sum -= 2 * pi * field.irradiance[0] * std::pow(110.0 / steps, 2) / 24;
+    CHECK(sum == Approx(power).epsilon(1e-6));
   }
 }
 

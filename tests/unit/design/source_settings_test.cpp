@@ -1,0 +1,95 @@
+#include <catch2/catch.hpp>
+
+#include "base/errors.h"
+#include "design/run.h"
+
+using namespace catoptric;
+using namespace catoptric::design;
+
+namespace {
+
+Scene scene_of(const std::string& source, const std::string& more = "") {
+  const std::string text = "unit = \"cm\"\n[source]\nposition = [0, 0, 5]\npower = 2\n" + source +
+                           "\n[reflector]\npoints = [[0, 10], [5, 10], [10, 5]]\n[near_field]\nradius = 8\n" +
+                           more;
+  return make_scene(Settings::parse(text, "test.toml", scene_keys()));
+}
+
+}  // namespace
+
+TEST_CASE("a source's keys make the source, in mm") {
+  const Scene disc = scene_of("kind = \"disc\"\nradius = 0.5\naxis = [0, 0, 2]");
+  CHECK(disc.source.kind == SourceKind::disc);
+  CHECK(disc.source.radius_mm == 5);
+  CHECK(make_source(disc.source)->extent_mm() == 5);
+  CHECK(make_source(disc.source)->intensity_w_per_sr({0, 0, 1}) == Approx(2 / pi));
+  const Scene beam = scene_of("exponent = 3\naxis = [1, 0, 0]");
+  CHECK(make_source(beam.source)->intensity_w_per_sr({1, 0, 0}) == Approx(2 * 4 / (2 * pi)));
+  CHECK(make_source(scene_of("").source)->intensity_w_per_sr({1, 0, 0}) == 2 / (4 * pi));
+}
+
+TEST_CASE("keys that do not belong to the source are refused") {
+  CHECK_THROWS_WITH(scene_of("radius = 1"), Catch::Contains("source.radius"));
+  CHECK_THROWS_WITH(scene_of("axis = [0, 0, 1]"), Catch::Contains("source.axis"));
+  CHECK_THROWS_WITH(scene_of("kind = \"disc\""), Catch::Contains("source.radius"));
+  CHECK_THROWS_WITH(scene_of("kind = \"disc\"\nradius = 1\nexponent = 1"),
+                    Catch::Contains("source.exponent"));
+  CHECK_THROWS_WITH(scene_of("exponent = 1\naxis = [0, 0, 0]"), Catch::Contains("source.axis"));
+  CHECK_THROWS_AS(scene_of("exponent = -1"), InputError);
+  CHECK_THROWS_WITH(scene_of("exponent = 1", "[target]\nkind = \"paraboloid\"\nfocal_length = 5\n"),
+                    Catch::Contains("formulas"));
+}
+
+TEST_CASE("scene.toml holds source and variables beside the shape, bit for bit") {
+  const std::string variables =
+      "[variables.w1]\nstep = 0.1\nlower = 0.3\nupper = 3\n"
+      "[variables.\"source.z\"]\nstart = 5.1\nstep = 0.1\nlower = 4\nupper = 6\n"
+      "[variables.\"source.exponent\"]\nstep = 0.1\nlower = 0.3\nupper = 3\n"
+      "[variables.\"reflector.reflectance\"]\nstep = 0.1\nlower = 0.3\nupper = 1\n";
+  const Scene first = scene_of("exponent = 0.7\naxis = [0, 0.1, 1]", variables);
+  const std::string text = scene_text(first);
+  CHECK_THAT(text, Catch::Contains("[variables.\"source.z\"]"));
+  const Scene second = make_scene(Settings::parse(text, "test.toml", scene_keys()));
+  CHECK(scene_text(second) == text);
+  REQUIRE(second.variables.size() == 4);
+  const std::vector<std::string> names{"w1", "source.z", "source.exponent", "reflector.reflectance"};
+  for (std::size_t i = 0; i < 4; ++i) CHECK(second.variables[i].name == names[i]);
+  CHECK(second.variables[1].start == 5.1);
+  CHECK(second.variables[2].start == 0.7);
+  CHECK(second.variables[3].start == 1);
+  const Candidate start = start_candidate(second);
+  CHECK(start.source.position_mm.z() == 51);
+  CHECK(start.source.exponent == 0.7);
+  const Scene disc = scene_of("kind = \"disc\"\nradius = 0.5");
+  CHECK(scene_text(make_scene(Settings::parse(scene_text(disc), "test.toml", scene_keys()))) ==
+        scene_text(disc));
+}
+
+TEST_CASE("a family moves source and surface, and knows what is no source") {
+  const Scene scene = scene_of("exponent = 1");
+  const SceneFamily family(scene.with(scene.profile),
+                           {"source.x", "w1", "reflector.reflectance", "source.power"},
+                           LengthUnit::centimetre);
+  const auto moved = family.at(std::vector<double>{0.3, 1.5, 0.6, 7});
+  REQUIRE(moved);
+  CHECK(moved->source.position_mm == Vector3(3, 0, 50));
+  CHECK(moved->profile.points()[1].weight == 1.5);
+  CHECK(moved->mirror.reflectance == 0.6);
+  CHECK(moved->source.power_w == 7);
+  CHECK_FALSE(family.at(std::vector<double>{0, 1, 1.1, 7}));
+  CHECK_FALSE(family.at(std::vector<double>{0, 1, 1, 0}));
+}
+
+TEST_CASE("bounds that are no source's are refused") {
+  const auto with = [](const char* name, const char* lower, const char* upper, const char* source) {
+    return scene_of(source, std::string("[variables.\"") + name + "\"]\nstep = 0.1\nstart = 0.5\nlower = " +
+                                lower + "\nupper = " + upper + "\n");
+  };
+  CHECK_NOTHROW(with("source.exponent", "0.1", "1", "exponent = 1"));
+  CHECK_THROWS_WITH(with("source.exponent", "0", "1", "exponent = 1"), Catch::Contains("exponent"));
+  CHECK_THROWS_WITH(with("source.exponent", "0.1", "1", "kind = \"disc\"\nradius = 1"),
+                    Catch::Contains("point"));
+  CHECK_THROWS_WITH(with("source.power", "0", "1", ""), Catch::Contains("power"));
+  CHECK_THROWS_WITH(with("reflector.reflectance", "0", "1.2", ""), Catch::Contains("reflectance"));
+  CHECK_THROWS_WITH(with("source.q", "0", "1", ""), Catch::Contains("source.z"));
+}
