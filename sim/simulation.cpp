@@ -43,8 +43,7 @@ std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample
 }
 
 double unshaded_w_per_mm2(const Source& source, const FieldSample& sample) {
-  OpenSpace open;
-  return source.direct_w_per_mm2(sample.point_mm, sample.normal, open, 0);
+  return source.unhindered_w_per_mm2(sample.point_mm, sample.normal);
 }
 
 FieldEstimate simulate(const Scene& scene, std::span<const FieldSample> samples, const PhotonOptions& photons,

@@ -9,11 +9,12 @@
 namespace catoptric::cli {
 namespace {
 
-ExitCode exit_code(optim::Ending ending) {
-  switch (ending) {
+/// A result that breaks constraints is no design, however well the search converged.
+ExitCode exit_code(const design::DesignResult& result) {
+  switch (result.search.ending) {
     case optim::Ending::converged:
     case optim::Ending::target_reached:
-      return ExitCode::done;
+      return design::violation(result.best.constraints) > 0 ? ExitCode::unconverged : ExitCode::done;
     case optim::Ending::stopped:
       return ExitCode::interrupted;
     default:
@@ -31,6 +32,12 @@ void print_accuracy(const design::Judgement& judgement) {
   if (judgement.accuracy) fmt::print("{}\n", judgement.accuracy->sentence);
 }
 
+void print_constraints(const design::Scene& scene, const design::Judged& judged) {
+  if (judged.constraints.empty()) return;
+  fmt::print("{}{}\n", report::text_table(report::constraint_table(scene, judged.constraints)),
+             design::sentence(judged.constraints, scene.unit));
+}
+
 }  // namespace
 
 ExitCode design_command(const CommonOptions& options) {
@@ -42,12 +49,13 @@ ExitCode design_command(const CommonOptions& options) {
   if (!options.quiet) {
     fmt::print("{}\n{}", result.search.sentence,
                report::text_table(report::summary_table(run.scene, result)));
+    print_constraints(run.scene, result.best);
     print_accuracy(result.best.judgement);
     fmt::print("{} evaluations in {:.3g} s, {} photons, {:.3g} s in all\n", result.search.evaluations,
                result.search_seconds, result.photons, result.seconds);
     run.print_files(files);
   }
-  return with_accuracy(exit_code(result.search.ending), result.best.judgement);
+  return with_accuracy(exit_code(result), result.best.judgement);
 }
 
 ExitCode simulate_command(const CommonOptions& options) {
@@ -57,6 +65,7 @@ ExitCode simulate_command(const CommonOptions& options) {
   run.line.finish();
   if (!options.quiet) {
     fmt::print("{}", report::text_table(report::simulation_table(run.scene, result)));
+    print_constraints(run.scene, result.mirror);
     print_accuracy(result.mirror.judgement);
     fmt::print("{} photons, {:.3g} s\n", result.photons, result.seconds);
     run.print_files(files);

@@ -5,6 +5,7 @@
 
 #include "base/atomic_file.h"
 #include "cli/stop_signal.h"
+#include "design/metrics.h"
 
 namespace catoptric::cli {
 namespace {
@@ -20,7 +21,7 @@ std::filesystem::path prepared_folder(const CommonOptions& options) {
 SceneRun::SceneRun(const CommonOptions& options)
     : scene(design::read_scene(options.input, options.overrides())),
       out(prepared_folder(options)),
-      line(options.quiet, scene.search.metric == design::Metric::rmse ? "W/m^2" : ""),
+      line(options.quiet, design::unit(scene.search.metric)),
       control{&stop_on_signal(), [this](const design::Progress& progress) { line.show(progress); }},
       limit_(scene.threads) {}
 

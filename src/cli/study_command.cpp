@@ -7,6 +7,8 @@
 #include "cli/commands.h"
 #include "cli/scene_run.h"
 #include "cli/stop_signal.h"
+#include "design/metrics.h"
+#include "report/result_json.h"
 
 namespace catoptric::cli {
 namespace {
@@ -58,7 +60,9 @@ ExitCode exit_code(const std::vector<report::StudyRow>& rows, bool interrupted) 
   ExitCode code = ExitCode::done;
   for (const report::StudyRow& row : rows) {
     if (!row.error.empty()) return ExitCode::geometry_or_exchange;
-    if (row.designed && !ended_well(row.designed->search.ending)) code = ExitCode::unconverged;
+    if (row.designed &&
+        (!ended_well(row.designed->search.ending) || report::outcome_word(*row.designed) == "unsatisfied"))
+      code = ExitCode::unconverged;
     if (accuracy_missed(row)) code = ExitCode::unconverged;
   }
   return code;
@@ -75,7 +79,7 @@ ExitCode study_command(const CommonOptions& options) {
   prepare_output_folder(out);
 
   const auto begin = std::chrono::steady_clock::now();
-  ProgressLine line(options.quiet, scenes.front().search.metric == design::Metric::rmse ? "W/m^2" : "");
+  ProgressLine line(options.quiet, design::unit(scenes.front().search.metric));
   const design::RunControl control{&stop_on_signal(), [&](const design::Progress& p) { line.show(p); }};
   std::vector<report::StudyRow> rows;
   rows.reserve(list.runs.size());  // a row stays where it is while its files are written

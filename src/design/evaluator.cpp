@@ -169,28 +169,25 @@ Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Candidate&
   return evaluate_by_photons(scene, stage, samples, stream);
 }
 
-double root_mean_square_error(std::span<const double> values, std::span<const double> target) {
+double root_mean_square_error(std::span<const double> values, std::span<const double> target,
+                              std::span<const double> weights) {
   CATOPTRIC_EXPECTS(values.size() == target.size() && !values.empty());
+  CATOPTRIC_EXPECTS(weights.empty() || weights.size() == values.size());
   std::vector<double> squares(values.size());
   for (std::size_t i = 0; i < values.size(); ++i)
-    squares[i] = (values[i] - target[i]) * (values[i] - target[i]);
-  return std::sqrt(ordered_sum(squares) / static_cast<double>(values.size()));
+    squares[i] = (values[i] - target[i]) * (values[i] - target[i]) * (weights.empty() ? 1.0 : weights[i]);
+  return std::sqrt(ordered_sum(squares) /
+                   (weights.empty() ? static_cast<double>(values.size()) : ordered_sum(weights)));
 }
 
-double root_mean_square(std::span<const double> values) {
-  return root_mean_square_error(values, std::vector<double>(values.size(), 0.0));
+double root_mean_square(std::span<const double> values, std::span<const double> weights) {
+  return root_mean_square_error(values, std::vector<double>(values.size(), 0.0), weights);
 }
 
 std::vector<double> sum(std::span<const double> a, std::span<const double> b) {
   std::vector<double> total(a.size());
   for (std::size_t i = 0; i < total.size(); ++i) total[i] = a[i] + b[i];
   return total;
-}
-
-double objective(const Scene& scene, std::span<const double> total_w_per_mm2,
-                 std::span<const double> target_w_per_mm2) {
-  const double rmse = root_mean_square_error(total_w_per_mm2, target_w_per_mm2);
-  return scene.search.metric == Metric::rmse ? to_w_per_m2(rmse) : rmse / root_mean_square(target_w_per_mm2);
 }
 
 }  // namespace catoptric::design

@@ -59,15 +59,12 @@ inline Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Pro
   return evaluate_by_rung(scene, rung, scene.with(profile), samples, stream);
 }
 
-/// Root of the mean squared difference.  @from paper eq. 7
-double root_mean_square_error(std::span<const double> values, std::span<const double> target);
-double root_mean_square(std::span<const double> values);
+/// Root of the mean squared difference, weighted unless the weights are empty.  @from paper eq. 7
+double root_mean_square_error(std::span<const double> values, std::span<const double> target,
+                              std::span<const double> weights = {});
+double root_mean_square(std::span<const double> values, std::span<const double> weights = {});
 
 /// Element by element.
 std::vector<double> sum(std::span<const double> a, std::span<const double> b);
-
-/// The scene's metric of a field against its target: W/m^2, or a ratio for relative-rmse.
-double objective(const Scene& scene, std::span<const double> total_w_per_mm2,
-                 std::span<const double> target_w_per_mm2);
 
 }  // namespace catoptric::design

@@ -5,6 +5,7 @@
 
 #include "base/ordered_sum.h"
 #include "design/evaluator.h"
+#include "design/metrics.h"
 #include "design/stage.h"
 
 namespace catoptric::design {
@@ -43,13 +44,23 @@ double debiased_root(double mean_square, double noise_square) {
   return std::sqrt(std::max(0.0, mean_square - noise_square));
 }
 
-/// The objective a field without noise and blur would have.
-double debiased_objective(const Scene& scene, const Target& target, const Spread& sharp,
-                          const std::vector<double>& direct) {
-  const double rmse = root_mean_square_error(sum(sharp.mean, direct), target.irradiance_w_per_mm2);
-  const double clean = debiased_root(rmse * rmse, mean(sharp.variance_of_mean));
-  return scene.search.metric == Metric::rmse ? to_w_per_m2(clean)
-                                             : clean / root_mean_square(target.irradiance_w_per_mm2);
+/// Mean over the samples, each with its weight in the target.
+double weighted_mean(const std::vector<double>& values, const Target& target) {
+  if (target.weights.empty()) return mean(values);
+  std::vector<double> weighted(values);
+  for (std::size_t i = 0; i < weighted.size(); ++i) weighted[i] *= target.weights[i];
+  return ordered_sum(weighted) / ordered_sum(target.weights);
+}
+
+/// The metric that a field without noise and blur would have.
+double debiased_value(Metric metric, const Scene& scene, const Target& target, const Spread& sharp,
+                      const std::vector<double>& direct) {
+  const std::vector<double> total = sum(sharp.mean, direct);
+  const double value = *metric_value(metric, scene, total, target);
+  if (metric != Metric::rmse && metric != Metric::relative_rmse) return value;
+  const double rmse = from_w_per_m2(*metric_value(Metric::rmse, scene, total, target));
+  const double clean = debiased_root(rmse * rmse, weighted_mean(sharp.variance_of_mean, target));
+  return metric == Metric::rmse ? to_w_per_m2(clean) : rmse > 0 ? value * clean / rmse : 0.0;
 }
 
 /// Half width, in standard errors, of an interval that holds the truth with a probability of 95 %.
@@ -59,22 +70,37 @@ double student95(std::size_t replicates) {
   return boost::math::quantile(boost::math::complement(student, 0.025));
 }
 
-Figure judge_objective(const Scene& scene, const Target& target, const Rows& reflected, const Rows& sharp,
-                       const std::vector<double>& direct) {
+Figure judge_metric(Metric metric, const Scene& scene, const Target& target, const Rows& reflected,
+                    const Rows& sharp, const std::vector<double>& direct) {
   Rows values;
   for (const auto& field : reflected)
-    values.push_back({objective(scene, sum(direct, field), target.irradiance_w_per_mm2)});
+    values.push_back({*metric_value(metric, scene, sum(direct, field), target)});
   const Spread value = spread(values);
   Figure figure{value.mean[0], std::sqrt(value.variance_of_mean[0]), 0, {}};
-  figure.bias = figure.value - debiased_objective(scene, target, spread(sharp), direct);
+  figure.bias = figure.value - debiased_value(metric, scene, target, spread(sharp), direct);
   if (sharp.size() == 1) figure.half_interval = 0;  // tubes: nothing is random
   if (sharp.size() < 3) return figure;              // without one of two there is no noise left to take off
   Rows without;
   for (std::size_t i = 0; i < sharp.size(); ++i)
-    without.push_back({debiased_objective(scene, target, spread(sharp, i), direct)});
+    without.push_back({debiased_value(metric, scene, target, spread(sharp, i), direct)});
   const double shrunk = static_cast<double>(sharp.size() - 1);  // what leaving one out hides of the spread
   figure.half_interval = student95(sharp.size()) * shrunk * std::sqrt(spread(without).variance_of_mean[0]);
   return figure;
+}
+
+/// All metrics, and of them the scene's as the search saw it.
+void fill_metrics(Judgement& judgement, const Scene& scene, const Target& target, const Rows& reflected,
+                  const Rows& sharp) {
+  judgement.has_objective = !target.irradiance_w_per_mm2.empty();
+  for (Metric metric : all_metrics()) {
+    if (!metric_value(metric, scene, target.irradiance_w_per_mm2, target)) continue;
+    const Figure figure = judge_metric(metric, scene, target, reflected, sharp, judgement.direct);
+    judgement.metrics.push_back({metric, figure});
+    if (metric != scene.search.metric) continue;
+    judgement.objective = figure;
+    judgement.objective.value = as_objective(metric, figure.value);
+    if (more_is_better(metric)) judgement.objective.bias = -figure.bias;
+  }
 }
 
 /// What follows from the replicates' fields alone.
@@ -120,7 +146,6 @@ Judgement judge(const Scene& scene, const Target& target, const Candidate& candi
   judgement.photons = random ? scene.model.photons.photons : 0;
   judgement.replicates = list.size();
   judgement.direct = list.front().direct;
-  judgement.has_objective = !target.irradiance_w_per_mm2.empty();
   Rows reflected, sharp;
   const double share = 1.0 / static_cast<double>(list.size());
   for (Evaluation& each : list) {
@@ -131,8 +156,7 @@ Judgement judge(const Scene& scene, const Target& target, const Candidate& candi
     judgement.counts.add(each.counts);
   }
   fill_fields(judgement, reflected, sharp);
-  if (judgement.has_objective)
-    judgement.objective = judge_objective(scene, target, reflected, sharp, judgement.direct);
+  fill_metrics(judgement, scene, target, reflected, sharp);
   return judgement;
 }
 
@@ -159,12 +183,10 @@ Judgement judge_to_accuracy(const Scene& scene, const Target& target, const Cand
   judgement.energy = field.energy;
   judgement.counts = field.counts;
   judgement.direct = std::move(field.direct);
-  judgement.has_objective = !target.irradiance_w_per_mm2.empty();
   fill_fields(judgement, field.by_set, field.by_set);
   judgement.field_bias_w_per_mm2 =
       field.bias_rel * root_mean_square(sum(judgement.direct, judgement.reflected));
-  if (judgement.has_objective)
-    judgement.objective = judge_objective(scene, target, field.by_set, field.by_set, judgement.direct);
+  fill_metrics(judgement, scene, target, field.by_set, field.by_set);
   judgement.reflected = std::move(field.reflected);
   return judgement;
 }

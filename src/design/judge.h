@@ -20,6 +20,12 @@ struct Figure {
                                         ///< of 95 %; nothing where too few replicates show a spread
 };
 
+/// One metric in its own unit and sense.
+struct MetricFigure {
+  Metric metric;
+  Figure figure;
+};
+
 /// How an accuracy that the scene asked for was reached.
 struct AccuracyReport {
   double asked_rel = 0, noise_rel = 0, bias_rel = 0, error95_rel = 0;
@@ -34,10 +40,11 @@ struct AccuracyReport {
 /// A mirror judged on random streams that no search used.
 struct Judgement {
   sim::Rung rung = sim::Rung::photons;
-  Figure objective;  ///< in the metric's unit; all 0 when the scene has no target
+  Figure objective;  ///< as the search makes it small; all 0 when the scene has no target
   bool has_objective = false;
-  double kernel_radius_mm = 0;  ///< mean over the samples; 0: the field itself, without a kernel
-  std::uint64_t photons = 0;    ///< of one evaluation
+  std::vector<MetricFigure> metrics;  ///< every metric that has a value here, searched or not
+  double kernel_radius_mm = 0;        ///< mean over the samples; 0: the field itself, without a kernel
+  std::uint64_t photons = 0;          ///< of one evaluation
   std::uint64_t replicates = 0;
   std::vector<double> direct, reflected;  ///< W/mm^2, means over replicates
   std::vector<double> noise;              ///< W/mm^2, standard error of `reflected`

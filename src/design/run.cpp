@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "design/evaluator.h"
+#include "design/metrics.h"
 #include "design/search.h"
 #include "design/stage.h"
 #include "design/variables.h"
@@ -31,13 +32,6 @@ void need_target(const Scene& scene, const char* command) {
     throw scene.settings.error("target.kind", "there is nothing to aim at",
                                std::string(command) + " compares the light with a target",
                                "target.kind = \"uniform\" with radius and irradiance, or another kind");
-}
-
-void need_light(const Scene& scene, const Target& target) {
-  if (scene.search.metric == Metric::relative_rmse && root_mean_square(target.irradiance_w_per_mm2) == 0)
-    throw scene.settings.error("search.metric", "the target is dark everywhere",
-                               "relative-rmse divides by the target's root mean square",
-                               "search.metric = \"rmse\"");
 }
 
 std::uint64_t emitted(const Judgement& judgement) {
@@ -93,7 +87,7 @@ DesignResult run_design(const Scene& scene, const RunControl& control) {
   sim::Plan plan = make_plan(scene, family);
   const Stopwatch watch;
   Target target = make_target(scene);
-  need_light(scene, target);
+  require_metric(scene, target);
   optim::Outcome outcome = search(scene, plan.rung, target, control);
   const double search_seconds = watch.seconds();
   const Candidate best = family.at(outcome.best).value_or(start);
@@ -131,7 +125,7 @@ SimulationResult run_simulation(const Scene& scene, const RunControl& control) {
   const Candidate start = start_candidate(scene);
   sim::Plan plan = simulation_plan(scene, start);
   Target target = scene.accuracy_rel ? make_sharp_target(scene) : make_target(scene);
-  if (!target.irradiance_w_per_mm2.empty()) need_light(scene, target);
+  if (!target.irradiance_w_per_mm2.empty()) require_metric(scene, target);
   control.tell({"simulate", 0.0, std::numeric_limits<double>::quiet_NaN(), 0});
   Judgement judgement = scene.accuracy_rel ? judge_to_accuracy(scene, target, start, verdict_stream, false,
                                                                watch_accuracy(scene, control, "simulate"))
@@ -160,7 +154,7 @@ Landscape run_landscape(const Scene& scene, const RunControl& control) {
     result.axes.push_back(axis);
   }
   const Target target = make_target(scene);
-  need_light(scene, target);
+  require_metric(scene, target);
   // Everything that is not drawn stays at its start.
   const Candidate start = start_candidate(scene);
   const SceneFamily family(start, spec.variables, scene.unit);

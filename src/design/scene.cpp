@@ -118,11 +118,17 @@ ModelSpec model(const Settings& settings, double unit_mm) {
   return spec;
 }
 
+Metric metric(const std::string& text) {
+  for (Metric each : {Metric::relative_rmse, Metric::enclosed_flux, Metric::uniformity, Metric::efficiency})
+    if (text == name(each)) return each;
+  return Metric::rmse;
+}
+
 SearchSpec search(const Settings& settings, double unit_mm) {
   Numbers kernels_mm = settings.numbers("search.kernels").value_or(Numbers{});
   for (double& kernel : kernels_mm) kernel *= unit_mm;
   return {*settings.text("search.method"),
-          settings.text("search.metric") == "relative-rmse" ? Metric::relative_rmse : Metric::rmse,
+          metric(*settings.text("search.metric")),
           *settings.number("search.acceleration"),
           *settings.number("search.reduction"),
           *settings.number("search.smallest_step"),
@@ -321,7 +327,11 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
 std::string_view name(Engine engine) {
   return engine == Engine::occt ? "occt" : engine == Engine::mesh ? "mesh" : "meridian";
 }
-std::string_view name(Metric metric) { return metric == Metric::rmse ? "rmse" : "relative-rmse"; }
+
+std::string_view name(Metric metric) {
+  constexpr std::string_view names[] = {"rmse", "relative-rmse", "enclosed-flux", "uniformity", "efficiency"};
+  return names[static_cast<std::size_t>(metric)];
+}
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   Settings settings = Settings::read(file, scene_keys());

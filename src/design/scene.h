@@ -55,7 +55,7 @@ struct ModelSpec {
   std::uint64_t most_photons;  ///< that proving an accuracy may spend
 };
 
-enum class Metric { rmse, relative_rmse };
+enum class Metric { rmse, relative_rmse, enclosed_flux, uniformity, efficiency };
 std::string_view name(Metric metric);
 
 struct SearchSpec {

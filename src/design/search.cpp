@@ -7,6 +7,7 @@
 
 #include "design/constraints.h"
 #include "design/evaluator.h"
+#include "design/metrics.h"
 #include "design/search_methods.h"
 
 namespace catoptric::design {
@@ -103,8 +104,7 @@ double value_at(const Scene& scene, sim::Rung rung, const Target& target, const 
   if (!candidate) return std::numeric_limits<double>::infinity();
   if (const double broken = violation(scene.constraints, candidate->profile); broken > 0)
     return infeasible_objective(broken);
-  return objective(scene, total_by_rung(scene, rung, *candidate, target.samples, search_stream),
-                   target.irradiance_w_per_mm2);
+  return objective(scene, total_by_rung(scene, rung, *candidate, target.samples, search_stream), target);
 }
 
 optim::Outcome search(const Scene& scene, sim::Rung rung, const Target& target, const RunControl& control) {

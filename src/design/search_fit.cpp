@@ -2,8 +2,10 @@
 #include <cmath>
 #include <memory>
 
+#include "base/ordered_sum.h"
 #include "design/constraints.h"
 #include "design/evaluator.h"
+#include "design/metrics.h"
 #include "design/search.h"
 #include "design/search_methods.h"
 #include "design/stage.h"
@@ -23,7 +25,7 @@ struct Fit {
   std::vector<std::size_t> radius_of;  ///< of each sample
   std::vector<std::size_t> columns;    ///< of the variables in the derivatives by all components
   std::vector<double> per_unit;        ///< mm in a variable's unit; 1 for weights
-  double scale;                        ///< W/mm^2 to the residuals' unit, over the root of their number
+  std::vector<double> scale;  ///< W/mm^2 to the residuals' unit, over the root of their number or weights
   sim::TubesOptions tubes;
 
   bool evaluate(std::span<const double> x, std::span<double> residuals, double* jacobian) const;
@@ -37,13 +39,13 @@ bool Fit::fill(const sim::TubesField& field, const std::vector<double>& direct,
                std::span<double> residuals) const {
   if (!believed(field, tubes)) return false;
   for (std::size_t i = 0; i < residuals.size(); ++i)
-    residuals[i] = scale * (direct[i] + field.irradiance[radius_of[i]] - target.irradiance_w_per_mm2[i]);
+    residuals[i] = scale[i] * (direct[i] + field.irradiance[radius_of[i]] - target.irradiance_w_per_mm2[i]);
   return true;
 }
 
 bool Fit::evaluate(std::span<const double> x, std::span<double> residuals, double* jacobian) const {
   const auto profile = family.at(x);
-  if (!profile || violation(scene.constraints, *profile) > 0) return false;
+  if (!profile || violation(scene.constraints, *profile) > 0) return false;  // a step too far
   const Stage stage(scene, *profile);
   const std::vector<double> direct = sim::direct_field(stage.scene, target.samples);
   const auto& source = dynamic_cast<const sim::PointSource&>(*stage.source);  // which ray tubes have proven
@@ -55,7 +57,7 @@ bool Fit::evaluate(std::span<const double> x, std::span<double> residuals, doubl
   for (std::size_t i = 0; i < residuals.size(); ++i)
     for (std::size_t j = 0; j < columns.size(); ++j)
       *jacobian++ =
-          scale * per_unit[j] *
+          scale[i] * per_unit[j] *
           by_all.by_variable(static_cast<Eigen::Index>(radius_of[i]), static_cast<Eigen::Index>(columns[j]));
   return fill(by_all.field, direct, residuals);
 }
@@ -73,6 +75,8 @@ void require_fit(const Scene& scene, sim::Rung rung) {
   for (const optim::Variable& variable : scene.variables)
     if (parse_scene_variable(variable.name))
       refuse("its derivatives are by the mirror's shape, not by " + variable.name);
+  if (more_is_better(scene.search.metric) || scene.target.free_scale)
+    refuse("it makes rmse or relative-rmse small, against a target of absolute scale");
   if (scene.mirror.transmittance > 0) refuse("its derivatives are for mirrors that let no light through");
 }
 
@@ -86,7 +90,7 @@ optim::LeastSquaresProblem fit_problem(const Scene& scene, const Target& target)
                                        {},
                                        {},
                                        {},
-                                       0,
+                                       {},
                                        tubes_options(scene, *scene.model.estimate.kernel_radius_mm)});
   std::ranges::sort(fit->radii_mm);
   fit->radii_mm.erase(std::ranges::unique(fit->radii_mm).begin(), fit->radii_mm.end());
@@ -98,10 +102,13 @@ optim::LeastSquaresProblem fit_problem(const Scene& scene, const Target& target)
     fit->columns.push_back(3 * component.point + std::string_view("rzw").find(component.coordinate));
     fit->per_unit.push_back(component.coordinate == 'w' ? 1.0 : millimetres_per(scene.unit));
   }
-  const double root = std::sqrt(static_cast<double>(radii_mm.size()));
-  fit->scale = scene.search.metric == Metric::rmse
-                   ? to_w_per_m2(1.0) / root
-                   : 1 / (root * root_mean_square(target.irradiance_w_per_mm2));
+  const double unit = scene.search.metric == Metric::rmse
+                          ? to_w_per_m2(1.0)
+                          : 1 / root_mean_square(target.irradiance_w_per_mm2, target.weights);
+  if (target.weights.empty())
+    fit->scale.assign(radii_mm.size(), unit / std::sqrt(static_cast<double>(radii_mm.size())));
+  for (const double weight : target.weights)
+    fit->scale.push_back(unit * std::sqrt(weight / ordered_sum(target.weights)));
   return {scene.variables, radii_mm.size(),
           [fit](std::span<const double> x, std::span<double> residuals, double* jacobian) {
             return fit->evaluate(x, residuals, jacobian);

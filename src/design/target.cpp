@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "base/ordered_sum.h"
 #include "base/tolerance.h"
 #include "design/csv_table.h"
 #include "design/evaluator.h"
 #include "design/radial_target.h"
 #include "design/stage.h"
+#include "design/target_smoothing.h"
 #include "sim/accuracy.h"
 
 namespace catoptric::design {
@@ -18,13 +21,64 @@ namespace {
 constexpr std::uint64_t first_reference_stream = std::uint64_t{1} << 32;
 constexpr std::uint64_t reference_replicates = 16;
 
+double radius_mm(const sim::FieldSample& sample) {
+  return std::hypot(sample.point_mm.x(), sample.point_mm.y());
+}
+
 Target from_radius(const Scene& scene) {
   Target target{scene.near_field.samples(scene.samples), {}};
   const RadialTarget wanted = *radial_target(scene);
   for (const sim::FieldSample& sample : target.samples)
-    target.irradiance_w_per_mm2.push_back(
-        wanted.total_w_per_mm2(std::hypot(sample.point_mm.x(), sample.point_mm.y())));
+    target.irradiance_w_per_mm2.push_back(wanted.total_w_per_mm2(radius_mm(sample)));
   return target;
+}
+
+/// What a source on the axis sends straight to a plane across it, at a distance from the axis; off the axis
+/// it is no function of the distance, and left to the kernel with the rest.
+double direct_w_per_mm2(const Scene& scene, double distance_mm) {
+  const Vector3& position_mm = scene.source.position_mm;
+  if (position_mm.x() != 0 || position_mm.y() != 0) return 0.0;
+  return sim::PointSource(position_mm, scene.source.power_w)
+      .unhindered_w_per_mm2({distance_mm, 0, scene.near_field.center_mm().z()}, scene.near_field.normal());
+}
+
+/// The wanted light as an evaluation would show it: direct light is computed without a kernel, so only the
+/// rest, which the mirror must give, is seen through it.
+void smooth(const Scene& scene, const RadialTarget& wanted, Target& target) {
+  std::vector<double> radii_mm, breaks_mm(scene.target.radii_mm);
+  for (const sim::FieldSample& sample : target.samples) radii_mm.push_back(radius_mm(sample));
+  breaks_mm.push_back(wanted.reach_mm);
+  target.irradiance_w_per_mm2 =
+      kernel_means([&](double r) { return wanted.total_w_per_mm2(r) - direct_w_per_mm2(scene, r); },
+                   breaks_mm, radii_mm, scene.model.estimate.kernel, *scene.model.estimate.kernel_radius_mm);
+  for (std::size_t i = 0; i < radii_mm.size(); ++i)
+    target.irradiance_w_per_mm2[i] += direct_w_per_mm2(scene, radii_mm[i]);
+}
+
+/// Weight of a place by its zone, or between the rows of a table.
+double weight_at(const TargetSpec& spec, double radius) {
+  const auto next = static_cast<std::size_t>(
+      std::lower_bound(spec.radii_mm.begin(), spec.radii_mm.end(), radius) - spec.radii_mm.begin());
+  if (!spec.zone_weights.empty()) return spec.zone_weights[next];
+  if (next == 0) return spec.table_weights.front();
+  if (next == spec.radii_mm.size()) return spec.table_weights.back();
+  const double share = (radius - spec.radii_mm[next - 1]) / (spec.radii_mm[next] - spec.radii_mm[next - 1]);
+  return (1 - share) * spec.table_weights[next - 1] + share * spec.table_weights[next];
+}
+
+/// Which samples lie in the target's parts, and what each counts.
+/// @in    the target without a kernel
+void mark(const Scene& scene, Target& target) {
+  const auto wanted = radial_target(scene);
+  for (std::size_t i = 0; i < target.samples.size(); ++i) {
+    target.within_reach.push_back(!wanted || radius_mm(target.samples[i]) <= wanted->reach_mm ? 1 : 0);
+    target.lit.push_back(!target.irradiance_w_per_mm2.empty() && target.irradiance_w_per_mm2[i] > 0 ? 1 : 0);
+    if (!scene.target.zone_weights.empty() || !scene.target.table_weights.empty())
+      target.weights.push_back(weight_at(scene.target, radius_mm(target.samples[i])));
+  }
+  if (!target.weights.empty() && !(ordered_sum(target.weights) > 0))
+    throw scene.settings.error("target.kind", "no sample has a weight",
+                               "all samples lie where zone_weights or the table's weights are 0", "");
 }
 
 Target from_reference(const Scene& scene) {
@@ -83,6 +137,13 @@ Target from_table(const Scene& scene) {
     target.samples.push_back({point_mm, scene.near_field.normal()});
     target.irradiance_w_per_mm2.push_back(from_w_per_m2(wanted[i]));
   }
+  if (!scene.target.weight_column.empty()) {
+    target.weights = column(table, scene.target.weight_column, file);
+    for (std::size_t i = 0; i < target.weights.size(); ++i)
+      if (target.weights[i] < 0)
+        throw InputError({fmt::format("weight {} is negative", target.weights[i]),
+                          fmt::format("{}:{}", file, table.lines[i]), "", ""});
+  }
   return target;
 }
 
@@ -102,7 +163,9 @@ double paraboloid_direct_w_per_mm2(double power_w, double height_mm, double dist
   return power_w / (4 * pi * h * h * slant * slant * slant);
 }
 
-Target make_target(const Scene& scene) {
+namespace {
+
+Target unmarked_target(const Scene& scene) {
   switch (scene.target.kind) {
     case TargetKind::paraboloid:
     case TargetKind::zones:
@@ -119,8 +182,28 @@ Target make_target(const Scene& scene) {
   return {scene.near_field.samples(scene.samples), {}};
 }
 
+}  // namespace
+
+Target make_target(const Scene& scene) {
+  Target target = unmarked_target(scene);
+  mark(scene, target);
+  const auto wanted = radial_target(scene);
+  if (wanted && scene.target.kind != TargetKind::paraboloid && scene.model.estimate.kernel_radius_mm)
+    smooth(scene, *wanted, target);
+  return target;
+}
+
+Target blurred_target(const Scene& scene) {
+  Target target = make_target(scene);
+  if (scene.target.kind == TargetKind::paraboloid) smooth(scene, *radial_target(scene), target);
+  return target;
+}
+
 Target make_sharp_target(const Scene& scene) {
-  return scene.target.kind == TargetKind::reflector ? sharp_from_reference(scene) : make_target(scene);
+  Target target =
+      scene.target.kind == TargetKind::reflector ? sharp_from_reference(scene) : unmarked_target(scene);
+  mark(scene, target);
+  return target;
 }
 
 }  // namespace catoptric::design

@@ -12,6 +12,9 @@ namespace catoptric::design {
 struct Target {
   std::vector<sim::FieldSample> samples;
   std::vector<double> irradiance_w_per_mm2;  ///< empty when the scene wants nothing
+  std::vector<double> weights = {};          ///< how much a sample counts; empty: all alike
+  std::vector<char> within_reach = {};       ///< 1 at samples within the target's outer edge
+  std::vector<char> lit = {};                ///< 1 where light is wanted, by the target without a kernel
 };
 
 /// Reflected irradiance of a paraboloid with the source in its focus, at a distance from the axis.
@@ -28,11 +31,18 @@ double paraboloid_direct_w_per_mm2(double power_w, double height_mm, double dist
 /// @error a reference reflector's light is seen through the scene's kernel, so that the kernel's bias cancels
 /// in
 ///        the comparison: by tubes where the model takes them, else with 16 times the scene's photons, a
-///        quarter of the noise of one evaluation
+///        quarter of the noise of one evaluation; a target along the radius is smoothed by the kernel where
+///        it has a fixed radius. Paraboloids and tables of points are taken as they are
 Target make_target(const Scene& scene);
 
+/// The same with paraboloids too seen through the kernel, so that a wide kernel's blur is on both sides of
+/// the comparison.
+/// @in    the scene has a kernel radius
+Target blurred_target(const Scene& scene);
+
 /// The same for fields without a kernel, which is what an accuracy is proven for: a reference reflector's
-/// light is found to a quarter of the scene's accuracy.
+/// light is found to a quarter of the scene's accuracy. A sample next to a jump counts in full for the side
+/// it lies on.
 /// @in    the scene asks for an accuracy
 Target make_sharp_target(const Scene& scene);
 

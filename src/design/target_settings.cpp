@@ -129,7 +129,12 @@ void read_radial_table(const Settings& settings, double unit_mm, TargetSpec& spe
   spec.reach_mm = spec.radii_mm.back();
   if (!(spec.reach_mm > 0))
     throw settings.error("target.file", "ends on the axis", "the last radius must be above 0", "");
-  if (!spec.weight_column.empty()) spec.table_weights = column(table, spec.weight_column, file);
+  if (spec.weight_column.empty()) return;
+  spec.table_weights = column(table, spec.weight_column, file);
+  for (std::size_t i = 0; i < spec.table_weights.size(); ++i)
+    if (spec.table_weights[i] < 0)
+      throw InputError({fmt::format("weight {} is negative", spec.table_weights[i]),
+                        fmt::format("{}:{}", file, table.lines[i]), "", ""});
 }
 
 }  // namespace

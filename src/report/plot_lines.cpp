@@ -71,8 +71,7 @@ std::string convergence_script(const ConvergenceFigure& figure) {
 
 std::string line_script(const LineFigure& figure) {
   std::string script = preamble(figure.title) + labels(figure.x_label, figure.y_label);
-  script += log_axis('x', figure.x_scale) + log_axis('y', figure.y_scale) +
-            "set autoscale xfix\n";
+  script += log_axis('x', figure.x_scale) + log_axis('y', figure.y_scale) + "set autoscale xfix\n";
   constexpr std::size_t few = 4;  // more labels would lie on the lines
   script += figure.curves.size() > few ? "set key outside below horizontal spacing 1.1\n"
                                        : "set key top right spacing 1.1\n";

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/units.h"
+#include "design/metrics.h"
 
 namespace catoptric::report {
 namespace {
@@ -24,11 +25,42 @@ Json interval_json(const design::Figure& figure) {
   return {std::max(0.0, middle - *figure.half_interval), middle + *figure.half_interval};
 }
 
+std::string json_unit(design::Metric metric) {
+  const std::string unit = design::unit(metric);
+  return unit.empty() ? "1" : unit;
+}
+
+/// Every metric that has a value, whatever is searched.
+Json metrics_json(const design::Judgement& judgement) {
+  Json json = Json::object();
+  for (const auto& [metric, figure] : judgement.metrics)
+    json[std::string(name(metric))] = {{"value", figure.value},
+                                       {"unit", json_unit(metric)},
+                                       {"noise", figure.noise},
+                                       {"bias", figure.bias},
+                                       {"interval95", interval_json(figure)}};
+  return json;
+}
+
+Json constraints_json(const design::Scene& scene, const std::vector<design::ConstraintState>& states) {
+  Json list = Json::array();
+  for (const design::ConstraintState& state : states)
+    list.push_back({{"name", state.name},
+                    {"value", shown(state, state.value, scene.unit)},
+                    {state.at_least ? "at_least" : "at_most", shown(state, state.limit, scene.unit)},
+                    {"violation", shown(state, state.violation, scene.unit)},
+                    {"unit", unit_of(state, scene.unit)},
+                    {"met", state.violation == 0},
+                    {"certified", state.certified}});
+  return list;
+}
+
 Json objective_json(const design::Scene& scene, const design::Judgement& judgement) {
   if (!judgement.has_objective) return nullptr;
   Json json = {{"metric", std::string(name(scene.search.metric))},
                {"value", judgement.objective.value},
-               {"unit", scene.search.metric == design::Metric::rmse ? "W/m^2" : "1"},
+               {"minimised", design::objective_name(scene.search.metric)},
+               {"unit", json_unit(scene.search.metric)},
                {"noise", judgement.objective.noise},
                {"bias", judgement.objective.bias},
                {"interval95", interval_json(judgement.objective)},
@@ -47,7 +79,9 @@ Json objective_json(const design::Scene& scene, const design::Judgement& judgeme
 
 Json judged_json(const design::Scene& scene, const design::Judged& judged) {
   return {{"variables", variables_json(scene, judged.variables)},
-          {"objective", objective_json(scene, judged.judgement)}};
+          {"objective", objective_json(scene, judged.judgement)},
+          {"metrics", metrics_json(judged.judgement)},
+          {"constraints", constraints_json(scene, judged.constraints)}};
 }
 
 Json energy_json(const design::SourceSpec& source, const sim::EnergyLedger& energy) {
@@ -117,15 +151,24 @@ std::string outcome_word(optim::Ending ending) {
   }
 }
 
+std::string outcome_word(const design::DesignResult& result) {
+  const bool broken = design::violation(result.best.constraints) > 0;
+  const std::string word = outcome_word(result.search.ending);
+  return broken && word == "converged" ? "unsatisfied" : word;
+}
+
 Json result_json(const design::Scene& scene, const design::DesignResult& result) {
   const design::Judgement& judgement = result.best.judgement;
   Json json = {{"title", scene.title},
                {"command", "design"},
-               {"outcome", outcome_word(result.search.ending)},
+               {"outcome", outcome_word(result)},
                {"sentence", result.search.sentence},
                {"unit", std::string(symbol(scene.unit))}};
   json.update(judged_json(scene, result.best));
-  json["search_value"] = result.search.value;
+  // an objective of a mirror that breaks constraints is a rank, not a figure
+  json["search_value"] =
+      result.search.value < design::infeasible_floor ? Json(result.search.value) : Json(nullptr);
+  json["constraints_sentence"] = design::sentence(result.best.constraints, scene.unit);
   json["start"] = judged_json(scene, result.start);
   json["counts"] = {{"iterations", result.search.iterations},   {"successes", result.search.successes},
                     {"evaluations", result.search.evaluations}, {"cache_hits", result.search.cache_hits},

@@ -19,6 +19,9 @@ nlohmann::ordered_json result_json(const design::Scene& scene, const design::Sim
 
 /// The word for an ending that other programs may test: "converged", "unconverged" or "interrupted".
 std::string outcome_word(optim::Ending ending);
+/// The same for a design, which may also be "unsatisfied": the search converged and its result breaks
+/// constraints.
+std::string outcome_word(const design::DesignResult& result);
 
 /// Pretty text of a JSON value with a final newline; NaN and infinity become null.
 std::string json_text(const nlohmann::ordered_json& value);

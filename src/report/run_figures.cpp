@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "design/metrics.h"
 #include "report/figures.h"
 
 namespace catoptric::report {
@@ -18,7 +19,8 @@ constexpr int grid_cells = 120;    ///< across an irradiance map
 std::string unit_of(const design::Scene& scene) { return std::string(symbol(scene.unit)); }
 
 std::string metric_label(const design::Scene& scene) {
-  return scene.search.metric == design::Metric::rmse ? "RMSE (W/m²)" : "relative RMSE";
+  return scene.search.metric == design::Metric::rmse ? "RMSE (W/m²)"
+                                                     : design::objective_name(scene.search.metric);
 }
 
 std::string variable_label(const design::Scene& scene, const std::string& name) {
@@ -183,6 +185,7 @@ NamedFigure radial_figure(const design::Scene& scene, const design::Target& targ
 NamedFigure convergence_figure(const design::Scene& scene, const optim::Outcome& outcome) {
   Curve curve{"best so far", {}, {}, CurveRole::obtained};
   for (const optim::Iterate& each : outcome.history) {
+    if (!(each.value < design::infeasible_floor)) continue;  // a rank of mirrors that break constraints
     curve.x.push_back(static_cast<double>(each.evaluations));
     curve.y.push_back(each.value);
   }
@@ -200,7 +203,8 @@ std::vector<NamedFigure> design_figures(const design::Scene& scene, const design
            {generatrix_curve(scene, result.start.profile, "start", CurveRole::initial),
             generatrix_curve(scene, result.best.profile, "result", CurveRole::obtained)}))}};
   figures.push_back(radial_figure(scene, result.target, result.best.judgement));
-  figures.push_back(convergence_figure(scene, result.search));
+  if (result.search.value < design::infeasible_floor)
+    figures.push_back(convergence_figure(scene, result.search));
   for (NamedFigure& figure : irradiance_figures(
            scene, result.target,
            {{"result", "Irradiance of the result", total(result.best.judgement)},

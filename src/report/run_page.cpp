@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "design/metrics.h"
 #include "report/html_report.h"
 #include "report/result_json.h"
 #include "report/run_tables.h"
@@ -13,7 +14,7 @@ namespace {
 std::string unit_of(const design::Scene& scene) { return std::string(symbol(scene.unit)); }
 
 std::string objective_text(const design::Scene& scene, const design::Judgement& judgement) {
-  const char* unit = scene.search.metric == design::Metric::rmse ? " W/m²" : "";
+  const char* unit = design::unit(scene.search.metric).empty() ? "" : " W/m²";
   const design::Figure& figure = judgement.objective;
   return fmt::format("{:.5g}{} (noise ± {:.2g}, bias {:+.2g}{})", figure.value, unit, figure.noise,
                      figure.bias, unit);
@@ -57,6 +58,12 @@ PageSection figure_section(const std::string& heading, const std::vector<DrawnFi
     section.figures.push_back(
         {figure.caption, figure.svg, "not drawn; its data is in figures/" + figure.name + ".gp"});
   return section;
+}
+
+/// Nothing where nothing binds.
+std::vector<PageTable> constraint_tables(const design::Scene& scene, const design::Judged& judged) {
+  if (judged.constraints.empty()) return {};
+  return {{"Constraints", constraint_table(scene, judged.constraints)}};
 }
 
 PageSection mirror_section(const design::Scene& scene, const Profile& profile) {
@@ -115,19 +122,19 @@ std::string title_of(const design::Scene& scene) {
 std::string design_page(const design::Scene& scene, const design::DesignResult& result,
                         const std::vector<DrawnFigure>& figures) {
   Page page{title_of(scene), result.search.sentence, {}, {}, footer(scene, "design")};
-  const std::string metric(name(scene.search.metric));
-  page.facts = {{"Outcome", outcome_word(result.search.ending)},
+  const std::string metric = design::objective_name(scene.search.metric);
+  page.facts = {{"Outcome", outcome_word(result)},
                 {metric + " of the result", objective_text(scene, result.best.judgement)},
                 {metric + " of the start", objective_text(scene, result.start.judgement)},
                 {"Effort", fmt::format("{} evaluations in {} iterations, {} photons, {:.1f} s",
                                        result.search.evaluations, result.search.iterations, result.photons,
                                        result.seconds)}};
+  if (!result.best.constraints.empty())
+    page.facts.emplace_back("Constraints", design::sentence(result.best.constraints, scene.unit));
+  std::vector<PageTable> tables{{"", summary_table(scene, result)}};
+  for (PageTable& table : constraint_tables(scene, result.best)) tables.push_back(std::move(table));
   page.sections = {
-      {"Start and result",
-       {},
-       measure_facts(scene, result.best.judgement),
-       {{"", summary_table(scene, result)}},
-       {}},
+      {"Start and result", {}, measure_facts(scene, result.best.judgement), std::move(tables), {}},
       figure_section("Pictures", figures),
       mirror_section(scene, result.best.profile),
       model_section(scene, result.plan),
@@ -141,16 +148,15 @@ std::string simulation_page(const design::Scene& scene, const design::Simulation
   Page page{title_of(scene), "The scene as it stands", {}, {}, footer(scene, "simulate")};
   if (result.mirror.judgement.has_objective)
     page.facts.push_back(
-        {std::string(name(scene.search.metric)), objective_text(scene, result.mirror.judgement)});
+        {design::objective_name(scene.search.metric), objective_text(scene, result.mirror.judgement)});
   page.facts.push_back({"Effort", fmt::format("{} photons, {:.1f} s", result.photons, result.seconds)});
-  page.sections = {{"Figures of the scene",
-                    {},
-                    measure_facts(scene, result.mirror.judgement),
-                    {{"", simulation_table(scene, result)}},
-                    {}},
-                   figure_section("Pictures", figures),
-                   mirror_section(scene, result.mirror.profile),
-                   model_section(scene, result.plan)};
+  std::vector<PageTable> tables{{"", simulation_table(scene, result)}};
+  for (PageTable& table : constraint_tables(scene, result.mirror)) tables.push_back(std::move(table));
+  page.sections = {
+      {"Figures of the scene", {}, measure_facts(scene, result.mirror.judgement), std::move(tables), {}},
+      figure_section("Pictures", figures),
+      mirror_section(scene, result.mirror.profile),
+      model_section(scene, result.plan)};
   return html_page(page);
 }
 

@@ -4,13 +4,20 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "design/metrics.h"
 #include "report/result_json.h"
 
 namespace catoptric::report {
 namespace {
 
-std::string objective_unit(const design::Scene& scene) {
-  return scene.search.metric == design::Metric::rmse ? "W/m^2" : "";
+std::string objective_unit(const design::Scene& scene) { return design::unit(scene.search.metric); }
+
+/// The metrics besides the one that is searched.
+std::vector<design::MetricFigure> others(const design::Scene& scene, const design::Judgement& judgement) {
+  std::vector<design::MetricFigure> list;
+  for (const design::MetricFigure& each : judgement.metrics)
+    if (each.metric != scene.search.metric || more_is_better(each.metric)) list.push_back(each);
+  return list;
 }
 
 /// A named figure of a run, for the study's table; nothing when the run has no such figure.
@@ -135,10 +142,16 @@ Table summary_table(const design::Scene& scene, const design::DesignResult& resu
                           design::unit_of_variable(scene.variables[i].name, scene.unit),
                           result.start.variables[i], result.best.variables[i]});
   const design::Figure &before = result.start.judgement.objective, &after = result.best.judgement.objective;
-  const std::string metric(name(scene.search.metric)), unit = objective_unit(scene);
+  const std::string metric = design::objective_name(scene.search.metric), unit = objective_unit(scene);
   table.rows.push_back({metric, unit, before.value, after.value});
   table.rows.push_back({"  its noise (1 sigma)", unit, before.noise, after.noise});
   table.rows.push_back({"  its bias", unit, before.bias, after.bias});
+  const auto first = others(scene, result.start.judgement), last = others(scene, result.best.judgement);
+  for (std::size_t i = 0; i < std::min(first.size(), last.size()); ++i) {
+    const std::string other(name(last[i].metric)), other_unit = design::unit(last[i].metric);
+    table.rows.push_back({other, other_unit, first[i].figure.value, last[i].figure.value});
+    table.rows.push_back({"  its noise (1 sigma)", other_unit, first[i].figure.noise, last[i].figure.noise});
+  }
   table.rows.push_back({"kernel radius, mean", std::string(symbol(scene.unit)),
                         scene.to_scene_unit(result.start.judgement.kernel_radius_mm),
                         scene.to_scene_unit(result.best.judgement.kernel_radius_mm)});
@@ -153,10 +166,14 @@ Table simulation_table(const design::Scene& scene, const design::SimulationResul
                           design::unit_of_variable(scene.variables[i].name, scene.unit),
                           result.mirror.variables[i]});
   if (judgement.has_objective) {
-    const std::string metric(name(scene.search.metric)), unit = objective_unit(scene);
+    const std::string metric = design::objective_name(scene.search.metric), unit = objective_unit(scene);
     table.rows.push_back({metric, unit, judgement.objective.value});
     table.rows.push_back({"  its noise (1 sigma)", unit, judgement.objective.noise});
     table.rows.push_back({"  its bias", unit, judgement.objective.bias});
+  }
+  for (const auto& [metric, figure] : others(scene, judgement)) {
+    table.rows.push_back({std::string(name(metric)), design::unit(metric), figure.value});
+    table.rows.push_back({"  its noise (1 sigma)", design::unit(metric), figure.noise});
   }
   table.rows.push_back({"kernel radius, mean", std::string(symbol(scene.unit)),
                         scene.to_scene_unit(judgement.kernel_radius_mm)});
@@ -176,6 +193,18 @@ Table simulation_table(const design::Scene& scene, const design::SimulationResul
   table.rows.push_back({"  absorbed by it", "W", judgement.energy.absorbed_w});
   table.rows.push_back({"  received by the near field", "W", judgement.energy.received_w});
   table.rows.push_back({"  escaped past the near field", "W", judgement.energy.escaped_w});
+  return table;
+}
+
+Table constraint_table(const design::Scene& scene, const std::vector<design::ConstraintState>& states) {
+  Table table{
+      {{"constraint", ""}, {"unit", ""}, {"limit", ""}, {"value", ""}, {"violation", ""}, {"found", ""}}, {}};
+  for (const design::ConstraintState& state : states) {
+    const auto number = [&](double value) { return Cell{shown(state, value, scene.unit)}; };
+    table.rows.push_back({state.name + (state.at_least ? " >=" : " <="), unit_of(state, scene.unit),
+                          number(state.limit), number(state.value), number(state.violation),
+                          std::string(state.certified ? "certified" : "on many points")});
+  }
   return table;
 }
 
@@ -204,7 +233,7 @@ Table study_table(const std::vector<StudyRow>& rows) {
       table.columns.push_back({name + " ref", unit});
   }
   for (const StudyRow& row : rows) {
-    const std::string outcome = row.designed    ? outcome_word(row.designed->search.ending)
+    const std::string outcome = row.designed    ? outcome_word(*row.designed)
                                 : row.simulated ? "simulated"
                                                 : row.error;
     std::vector<Cell> cells{row.run.name, outcome};

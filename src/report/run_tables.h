@@ -21,11 +21,14 @@ Table convergence_table(const design::Scene& scene, const optim::Outcome& outcom
 /// One row per point: the variables and the objective.
 Table landscape_table(const design::Scene& scene, const design::Landscape& landscape);
 
-/// Start beside result: variables and objective with noise and bias.
+/// Start beside result: variables, objective with noise and bias, all other metrics.
 Table summary_table(const design::Scene& scene, const design::DesignResult& result);
 
-/// Figures of a simulated scene: objective with noise and bias, energy.
+/// Figures of a simulated scene: objective with noise and bias, all other metrics, energy.
 Table simulation_table(const design::Scene& scene, const design::SimulationResult& result);
+
+/// One row per constraint: limit, value, violation in the scene's units.
+Table constraint_table(const design::Scene& scene, const std::vector<design::ConstraintState>& states);
 
 /// One run of a study and what came of it; exactly one of the two results is there, or the error.
 struct StudyRow {

@@ -3,6 +3,7 @@
 
 #include "design/evaluator.h"
 #include "design/judge.h"
+#include "design/metrics.h"
 #include "design/run.h"
 
 using namespace catoptric;
@@ -42,7 +43,7 @@ Coverage cover(const char* rung, const char* sampler, int seeds) {
       seen.field_held += off <= judged.half_interval[i];
       seen.field_held_by_half += off <= 0.5 * judged.half_interval[i];
     }
-    const double truth = objective(scene, sum(judged.direct, exact), target.irradiance_w_per_mm2);
+    const double truth = objective(scene, sum(judged.direct, exact), target);
     const double off = std::abs(judged.objective.value - judged.objective.bias - truth);
     ++seen.objectives;
     seen.objective_held += off <= *judged.objective.half_interval;

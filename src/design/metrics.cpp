@@ -1,0 +1,119 @@
+#include "design/metrics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/ordered_sum.h"
+#include "design/evaluator.h"
+
+namespace catoptric::design {
+namespace {
+
+constexpr std::array metrics{Metric::rmse, Metric::relative_rmse, Metric::enclosed_flux, Metric::uniformity,
+                             Metric::efficiency};
+
+/// The target at the level that comes nearest to the field: the least squares' one.
+std::vector<double> fitted(std::span<const double> total, const Target& target) {
+  std::vector<double> both, own;
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    const double wanted = target.irradiance_w_per_mm2[i];
+    const double weight = target.weights.empty() ? 1.0 : target.weights[i];
+    both.push_back(weight * wanted * total[i]);
+    own.push_back(weight * wanted * wanted);
+  }
+  const double square = ordered_sum(own), level = square > 0 ? ordered_sum(both) / square : 0.0;
+  std::vector<double> wanted(target.irradiance_w_per_mm2);
+  for (double& value : wanted) value *= level;
+  return wanted;
+}
+
+std::optional<double> error(Metric metric, const Scene& scene, std::span<const double> total,
+                            const Target& target) {
+  const std::vector<double> wanted =
+      scene.target.free_scale ? fitted(total, target) : target.irradiance_w_per_mm2;
+  const double rmse = root_mean_square_error(total, wanted, target.weights);
+  if (metric == Metric::rmse) return to_w_per_m2(rmse);
+  const double size = root_mean_square(wanted, target.weights);
+  if (!(size > 0)) return std::nullopt;
+  return rmse / size;
+}
+
+std::optional<double> uniformity(std::span<const double> total, const Target& target) {
+  std::vector<double> lit, weights;
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    const double weight = target.weights.empty() ? 1.0 : target.weights[i];
+    if (!target.lit[i] || weight == 0) continue;
+    lit.push_back(total[i]);
+    weights.push_back(weight);
+  }
+  if (lit.empty()) return std::nullopt;
+  const double least = *std::min_element(lit.begin(), lit.end());
+  for (std::size_t i = 0; i < lit.size(); ++i) lit[i] *= weights[i];
+  const double mean = ordered_sum(lit) / ordered_sum(weights);
+  return mean > 0 ? least / mean : 0.0;
+}
+
+std::optional<double> flux_share(const Scene& scene, std::span<const double> total,
+                                 const std::vector<char>& counted) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < total.size(); ++i)
+    if (counted[i]) values.push_back(total[i]);
+  if (values.empty()) return std::nullopt;
+  return ordered_sum(values) * scene.near_field.area_mm2() / static_cast<double>(total.size()) /
+         scene.source.power_w;
+}
+
+}  // namespace
+
+std::span<const Metric> all_metrics() { return metrics; }
+
+bool more_is_better(Metric metric) { return metric != Metric::rmse && metric != Metric::relative_rmse; }
+
+std::string objective_name(Metric metric) {
+  return (more_is_better(metric) ? "1 - " : "") + std::string(name(metric));
+}
+
+std::string unit(Metric metric) { return metric == Metric::rmse ? "W/m^2" : ""; }
+
+std::optional<double> metric_value(Metric metric, const Scene& scene, std::span<const double> total_w_per_mm2,
+                                   const Target& target) {
+  if (target.irradiance_w_per_mm2.empty()) return std::nullopt;
+  switch (metric) {
+    case Metric::rmse:
+    case Metric::relative_rmse:
+      return error(metric, scene, total_w_per_mm2, target);
+    case Metric::enclosed_flux:
+      return flux_share(scene, total_w_per_mm2, target.within_reach);
+    case Metric::uniformity:
+      return uniformity(total_w_per_mm2, target);
+    case Metric::efficiency:
+      break;
+  }
+  return flux_share(scene, total_w_per_mm2, target.lit);
+}
+
+double as_objective(Metric metric, double value) { return more_is_better(metric) ? 1 - value : value; }
+
+double objective(const Scene& scene, std::span<const double> total_w_per_mm2, const Target& target) {
+  const Metric metric = scene.search.metric;
+  return as_objective(metric, *metric_value(metric, scene, total_w_per_mm2, target));
+}
+
+void require_metric(const Scene& scene, const Target& target) {
+  const Metric metric = scene.search.metric;
+  if (scene.target.free_scale && metric == Metric::rmse)
+    throw scene.settings.error("search.metric", "says nothing about a target of free scale",
+                               "the darkest field fits best when the level is free",
+                               "search.metric = \"relative-rmse\"");
+  // the target itself stands for the field: the relative error of a dark one has no meaning
+  if (!metric_value(metric, scene, target.irradiance_w_per_mm2, target))
+    throw scene.settings.error(
+        "search.metric", "the target is dark everywhere",
+        metric == Metric::relative_rmse
+            ? "relative-rmse divides by the target's root mean square"
+            : std::string(name(metric)) + " looks at its lit part, at the samples",
+        metric == Metric::relative_rmse ? "search.metric = \"rmse\"" : "near_field.samples, or the target");
+}
+
+}  // namespace catoptric::design
