@@ -190,6 +190,53 @@ TEST_CASE("a value that is reached ends a search, and that is a good end") {
   CHECK(result.at("counts").at("restarts") > 0);  // from C itself it is not to be had
 }
 
+TEST_CASE(
+    "a constraint that cannot be met is named with by how much, and a start that breaks one is led in") {
+  const TemporaryFolder folder;
+  const auto design = [&](const std::string& constraint, const std::string& out) {
+    return program_run("design '" + paper + "start_a.toml' --set " + constraint + " --out '" +
+                       (folder / out).string() + "'" + small);
+  };
+  // the apex at 10 cm and the rim at 5 cm do not move: no mirror of these variables is lower than 5 cm
+  const Ended broken = design("constraints.height_max=4.5", "broken");
+  CHECK(broken.code == 5);
+  CHECK_THAT(broken.output, Contains("height_max is 5 cm, at most 4.5 is allowed (0.5 cm too much)"));
+  const json no = parsed(folder / "broken" / "result.json");
+  CHECK(no["outcome"] == "unsatisfied");
+  CHECK(no["search_value"].is_null());
+  CHECK(no["constraints"][0]["name"] == "height_max");
+  CHECK(no["constraints"][0]["met"] == false);
+  CHECK(no["constraints"][0]["violation"].get<double>() == Approx(0.5));
+  // the start's rim is at 9 cm; the search must come in and then stay in, although (1, 10) fits better
+  const Ended kept = design("constraints.rim_radius_max=8.5", "kept");
+  CHECK(kept.code == 0);
+  CHECK_THAT(kept.output, Contains("All 1 constraints are met."));
+  const json yes = parsed(folder / "kept" / "result.json");
+  CHECK(yes["variables"]["r2"].get<double>() <= 8.5);
+  CHECK(yes["constraints"][0]["met"] == true);
+  CHECK(yes["start"]["constraints"][0]["met"] == false);
+  CHECK(yes["start"]["constraints"][0]["violation"].get<double>() == Approx(0.5));
+  CHECK_THAT(read_whole(folder / "kept" / "report.html"), Contains("rim_radius_max"));
+}
+
+TEST_CASE("every metric is reported whatever is searched") {
+  const TemporaryFolder folder;
+  for (const std::string metric : {"rmse", "uniformity", "enclosed-flux"}) {
+    const Ended ended = program_run("design '" + paper + "start_a.toml' --set search.metric=" + metric +
+                                    " --out '" + (folder / metric).string() + "'" + small);
+    INFO(ended.output);
+    CHECK(ended.code == 0);
+    const json result = parsed(folder / metric / "result.json");
+    CHECK(result["objective"]["metric"] == metric);
+    for (const char* name : {"rmse", "relative-rmse", "enclosed-flux", "uniformity", "efficiency"})
+      for (const json& judged : {result, result["start"]}) CHECK(judged["metrics"][name]["noise"] >= 0);
+    const double value = result["metrics"][metric]["value"], searched = result["objective"]["value"];
+    CHECK(searched == Approx(metric == "rmse" ? value : 1 - value));
+    CHECK(searched <= result["start"]["objective"]["value"].get<double>());
+    CHECK_THAT(ended.output, Contains("efficiency"));
+  }
+}
+
 TEST_CASE("an interrupted search ends with 130 and leaves its best so far") {
   const TemporaryFolder folder;
   // --foreground: else timeout signals its group too, and a second signal ends the program at once
