@@ -28,15 +28,17 @@ std::vector<double> fitted(std::span<const double> total, const Target& target) 
   return wanted;
 }
 
+/// With a free scale a relative error refers to the field itself, so that it lies between 0 and 1.
 std::optional<double> error(Metric metric, const Scene& scene, std::span<const double> total,
                             const Target& target) {
   const std::vector<double> wanted =
       scene.target.free_scale ? fitted(total, target) : target.irradiance_w_per_mm2;
   const double rmse = root_mean_square_error(total, wanted, target.weights);
   if (metric == Metric::rmse) return to_w_per_m2(rmse);
-  const double size = root_mean_square(wanted, target.weights);
-  if (!(size > 0)) return std::nullopt;
-  return rmse / size;
+  if (!(root_mean_square(target.irradiance_w_per_mm2, target.weights) > 0)) return std::nullopt;
+  if (!scene.target.free_scale) return rmse / root_mean_square(wanted, target.weights);
+  const double field = root_mean_square(total, target.weights);  // at best fit its target is no larger
+  return field > 0 ? rmse / field : 1.0;
 }
 
 std::optional<double> uniformity(std::span<const double> total, const Target& target) {

@@ -59,8 +59,9 @@ TEST_CASE("with a free scale the level that fits best is compared") {
   std::vector<double> doubled(target().irradiance_w_per_mm2);
   for (double& each : doubled) each *= 7;
   CHECK(objective(spec, doubled, target()) == Approx(0).margin(1e-12));
-  // level (3*2 + 1*2 + 1*1) / 9 = 1: the same as without
-  CHECK(objective(spec, field, target()) == Approx(std::sqrt(6.0 / 9)));
+  // level (3*2 + 1*2 + 1*1) / 9 = 1, and the field's own mean square is 15 / 4
+  CHECK(objective(spec, field, target()) == Approx(std::sqrt(6.0 / 15)));
+  CHECK(objective(spec, std::vector<double>(4, 0.0), target()) == 1);
   CHECK_THROWS_WITH(require_metric(scene("rmse", "scale = \"free\"\n"), target()),
                     Catch::Contains("free scale"));
 }
