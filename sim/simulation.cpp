@@ -42,10 +42,6 @@ std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample
   return direct;
 }
 
-double unshaded_w_per_mm2(const Source& source, const FieldSample& sample) {
-  return source.unhindered_w_per_mm2(sample.point_mm, sample.normal);
-}
-
 FieldEstimate simulate(const Scene& scene, std::span<const FieldSample> samples, const PhotonOptions& photons,
                        const EstimateOptions& estimate) {
   check(estimate);

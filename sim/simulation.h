@@ -25,9 +25,6 @@ struct FieldEstimate {
 /// @from  paper eq. 13
 std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample> samples);
 
-/// The same at one place with no mirror to shade it.
-double unshaded_w_per_mm2(const Source& source, const FieldSample& sample);
-
 /// Traces photons and estimates the irradiance at the samples. To judge the same photons with several
 /// bandwidths, call trace_photons once with the largest margin, then PhotonMap::estimate for each.
 /// @in    samples on the near field

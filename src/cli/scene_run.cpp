@@ -25,7 +25,10 @@ SceneRun::SceneRun(const CommonOptions& options)
       control{&stop_on_signal(), [this](const design::Progress& progress) { line.show(progress); }},
       limit_(scene.threads) {}
 
-void SceneRun::print_files(const report::WrittenFiles& files) const { cli::print_files(files, out); }
+void SceneRun::print_files(const report::WrittenFiles& files) const {
+  for (const std::string& note : scene.profile_notes) fmt::print("note: {}\n", note);
+  cli::print_files(files, out);
+}
 
 void print_files(const report::WrittenFiles& files, const std::filesystem::path& out, const char* more) {
   for (const std::string& note : files.notes) fmt::print("note: {}\n", note);

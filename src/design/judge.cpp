@@ -156,7 +156,8 @@ Judgement judge(const Scene& scene, const Target& target, const Candidate& candi
     judgement.counts.add(each.counts);
   }
   fill_fields(judgement, reflected, sharp);
-  fill_metrics(judgement, scene, target, reflected, sharp);
+  // Where the target is blurred alike, it is the blurred field that compares to it.
+  fill_metrics(judgement, scene, target, reflected, target.through_kernel ? reflected : sharp);
   return judgement;
 }
 

@@ -77,7 +77,7 @@ Candidate start_candidate(const Scene& scene) {
 }
 
 DesignResult run_design(const Scene& scene, const RunControl& control) {
-  if (scene.variables.empty())
+  if (scene.variables.empty() && scene.search.method != "none")
     throw scene.settings.error("variables", "there is nothing to search",
                                "design moves at least one variable",
                                "[variables.w1] with step, lower and upper");

@@ -275,8 +275,6 @@ TailoredSpec tailored(const Settings& settings, double unit_mm) {
   const std::string map = *settings.text("tailored.map");
   if (map != "auto") spec.map = map == "crossing" ? RayMap::crossing : RayMap::diverging;
   if (const auto vertex = settings.number("tailored.vertex")) spec.vertex_mm = *vertex * unit_mm;
-  spec.package_radius_mm = settings.number("tailored.package_radius").value_or(HUGE_VAL) * unit_mm;
-  spec.package_height_mm = settings.number("tailored.package_height").value_or(HUGE_VAL) * unit_mm;
   spec.rim_angle_rad = *settings.number("tailored.rim_angle") * pi / 180;
   spec.degree = static_cast<int>(*settings.integer("tailored.degree"));
   spec.points = static_cast<std::size_t>(*settings.integer("tailored.points"));
@@ -291,9 +289,10 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
   sim::NearField field = near_field(settings, unit_mm);
   TargetSpec desired = target(settings, unit_mm, field);
   if (desired.kind == TargetKind::paraboloid) check_paraboloid(settings, source, field);
-  std::vector<optim::Variable> decision = variables(settings, base, unit);
-  std::optional<LandscapeSpec> drawn = landscape(settings, base);
   const sim::Material mirror = material(settings, "reflector");
+  const Candidate written{base, source, mirror};
+  std::vector<optim::Variable> decision = variables(settings, written, unit);
+  std::optional<LandscapeSpec> drawn = landscape(settings, written);
   const Constraints bounds = read_constraints(settings, unit_mm, source.position_mm, field);
   Scene scene{.settings = {},
               .title = *settings.text("title"),

@@ -88,7 +88,6 @@ struct TradeoffSpec {
 struct TailoredSpec {
   std::optional<RayMap> map;  ///< nothing: the better one
   std::optional<double> vertex_mm;
-  double package_radius_mm, package_height_mm;  ///< infinite where not given
   double rim_angle_rad;
   int degree;
   std::size_t points;

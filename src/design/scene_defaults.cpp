@@ -138,21 +138,21 @@ void complete_bandwidth(Settings& settings) {
 void complete_start(Settings& settings) {
   const bool tailored = settings.text("start") == "tailored";
   if (!tailored || settings.has("reflector.points")) {
-    for (const char* key : {"tailored.vertex", "tailored.package_radius", "tailored.package_height"})
-      if (settings.has(key))
-        throw settings.error(key, "has no effect",
-                             tailored ? "the reflector is written out" : "start is not \"tailored\"",
-                             "remove it, or let the mirror be made from nothing");
+    if (settings.has("tailored.vertex"))
+      throw settings.error("tailored.vertex", "has no effect",
+                           tailored ? "the reflector is written out" : "start is not \"tailored\"",
+                           "remove it, or let the mirror be made from nothing");
     return;
   }
   for (const char* key : {"reflector.degree", "reflector.weights", "reflector.knots"})
     if (settings.has(key))
       throw settings.error(key, "stands alone", "a mirror made from nothing has its own",
                            "tailored.degree and tailored.points");
-  if (!settings.has("tailored.vertex") && !settings.has("tailored.package_radius") &&
-      !settings.has("tailored.package_height"))
+  const auto given = [&](const char* key) { return settings.has(key); };
+  if (!given("tailored.vertex") && !given("constraints.rim_radius_max") &&
+      !given("constraints.envelope_radius") && !given("constraints.height_max"))
     throw settings.error("tailored.vertex", "is missing", "a mirror made from nothing needs its size",
-                         "tailored.package_radius, tailored.package_height or tailored.vertex");
+                         "constraints.rim_radius_max, constraints.height_max or tailored.vertex");
   const auto degree = *settings.integer("tailored.degree"), count = *settings.integer("tailored.points");
   if (count <= degree)
     throw settings.error("tailored.points", fmt::format("{} are too few for degree {}", count, degree),

@@ -84,6 +84,18 @@ optim::Outcome search_coarse_to_fine(const Scene& scene, sim::Rung rung, const T
   return all;
 }
 
+/// No search: what there is, judged.
+optim::Outcome as_it_starts(const Scene& scene, sim::Rung rung, const Target& target) {
+  optim::Outcome outcome{};
+  outcome.ending = optim::Ending::converged;
+  outcome.sentence = "not searched: the mirror is judged as it starts";
+  outcome.best = starts(scene.variables);
+  outcome.value = outcome.start_value = value_at(scene, rung, target, family_of(scene), outcome.best);
+  outcome.evaluations = 1;
+  outcome.history.push_back({0, 0, 1, 1, "start", outcome.best, outcome.value});
+  return outcome;
+}
+
 }  // namespace
 
 std::vector<std::string> names(const std::vector<optim::Variable>& variables) {
@@ -108,6 +120,7 @@ double value_at(const Scene& scene, sim::Rung rung, const Target& target, const 
 }
 
 optim::Outcome search(const Scene& scene, sim::Rung rung, const Target& target, const RunControl& control) {
+  if (scene.search.method == "none") return as_it_starts(scene, rung, target);
   if (scene.search.method == "levenberg-marquardt") require_fit(scene, rung);
   const long kernels = static_cast<long>(scene.search.kernels_mm.size());
   if (kernels > 0 && scene.search.most_evaluations <= kernels + 1)

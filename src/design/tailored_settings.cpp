@@ -34,8 +34,9 @@ Settings tailored_settings(const Scene& scene, bool from_nothing, std::vector<st
     put(settings, "target.level", start.level * settings.number("target.level").value_or(1));
   if (scene.target.free_scale) settings.set({"target.scale", "\"absolute\"", where});
   settings.set({"start", "\"profile\"", where});
-  for (const char* used : {"tailored.vertex", "tailored.package_radius", "tailored.package_height"})
-    settings.remove(used);
+  settings.remove("tailored.vertex");
+  // A mirror made from nothing is done unless more is asked for.
+  if (from_nothing && scene.variables.empty()) settings.set({"search.method", "\"none\"", where});
   notes.insert(notes.end(), start.notes.begin(), start.notes.end());
   return settings;
 }

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "base/units.h"
+#include "design/compensation.h"
 #include "design/free_profile.h"
 #include "design/profile_fit.h"
 #include "design/tailoring.h"
@@ -97,27 +98,22 @@ double light_error_rel(const Scene& scene, const TailoringTask& task, const Prof
   return std::sqrt(square / wanted_square);
 }
 
-/// A mirror made from nothing, by one of the ray maps.
-class FromNothing {
+/// Mirrors made from nothing, by one of the ray maps.
+class MirrorFactory {
  public:
-  FromNothing(const Scene& scene, const TailoringTask& task) : scene_(scene), task_(task) {}
+  MirrorFactory(const Scene& scene, const TailoringTask& task, RayMap kind)
+      : scene_(scene), task_(task), kind_(kind) {}
 
-  struct Made {
-    Tailored tailored;
-    RayMap kind;
-    double light_error_rel;
-  };
-
-  /// A sentence where this map makes no mirror.
-  std::variant<Made, std::string> make(RayMap kind) const {
-    const auto vertex = apex_distance_mm(kind);
+  /// A sentence where this map makes no mirror for the light.
+  std::variant<Tailored, std::string> make(const FluxMap& map) const {
+    const auto vertex = apex_distance_mm(map);
     if (const auto* why = std::get_if<std::string>(&vertex)) return *why;
     const int degree = scene_.tailored.degree;
     const std::size_t points = scene_.tailored.points;
-    const auto curve = curve_from(kind, std::get<double>(vertex), 20 * points);
+    const auto curve = curve_from(map, std::get<double>(vertex), 20 * points);
     if (const auto* why = std::get_if<std::string>(&curve)) return *why;
-    std::vector<double> breaks = task_.map.break_angles_rad();
-    for (double& each : breaks) each /= task_.map.last_angle_rad();
+    std::vector<double> breaks = map.break_angles_rad();
+    for (double& each : breaks) each /= map.last_angle_rad();
     const std::vector<double> knots = knots_with_breaks(degree, points, breaks);
     auto control = fit_control_points(std::get<0>(curve), degree, knots);
     control[0].z_mm = control[1].z_mm = std::get<0>(curve).front().z_mm;
@@ -129,27 +125,28 @@ class FromNothing {
     TailoringOptions search;
     search.most_restarts = 0;  // the fit is where a search should begin
     search.value_tolerance = 1e-4;
-    Made made{tailor(task_.map, task_.layout, kind, family, search), kind, 0};
-    made.light_error_rel = light_error_rel(scene_, task_, made.tailored.profile);
-    return made;
+    return tailor(map, task_.layout, kind_, family, search);
   }
 
  private:
-  std::variant<std::vector<CurvePoint>, std::string> curve_from(RayMap kind, double apex_mm,
+  std::variant<std::vector<CurvePoint>, std::string> curve_from(const FluxMap& map, double apex_mm,
                                                                 std::size_t points) const {
     std::vector<double> angles;
     for (std::size_t i = 1; i <= points; ++i)
-      angles.push_back(task_.map.last_angle_rad() * static_cast<double>(i) / static_cast<double>(points));
-    return tailored_curve(task_.map, task_.layout, kind, apex_mm, angles);
+      angles.push_back(map.last_angle_rad() * static_cast<double>(i) / static_cast<double>(points));
+    return tailored_curve(map, task_.layout, kind_, apex_mm, angles);
   }
 
   /// As wished, or as large as the package allows: a larger mirror makes the same light, and less of a source
   /// that is no point shows in it.
-  std::variant<double, std::string> apex_distance_mm(RayMap kind) const {
-    const TailoredSpec& spec = scene_.tailored;
-    if (spec.vertex_mm) return *spec.vertex_mm;
+  std::variant<double, std::string> apex_distance_mm(const FluxMap& map) const {
+    if (scene_.tailored.vertex_mm) return *scene_.tailored.vertex_mm;
+    const Constraints& package = scene_.constraints;
+    const double radius_mm =
+        std::min(package.rim_radius_max_mm.value_or(HUGE_VAL), package.envelope_radius_mm.value_or(HUGE_VAL));
+    const double height_mm = package.height_max_mm.value_or(HUGE_VAL);
     const auto fits = [&](double apex_mm) {
-      const auto curve = curve_from(kind, apex_mm, 40);
+      const auto curve = curve_from(map, apex_mm, 40);
       if (!std::holds_alternative<std::vector<CurvePoint>>(curve)) return false;
       double r_most = 0, z_least = HUGE_VAL, z_most = -HUGE_VAL;
       for (const CurvePoint& point : std::get<0>(curve)) {
@@ -159,15 +156,15 @@ class FromNothing {
       }
       // The spline goes beside the curve by less than this share.
       constexpr double room = 1 - 1e-4;
-      return r_most <= room * spec.package_radius_mm && z_most - z_least <= room * spec.package_height_mm;
+      return r_most <= room * radius_mm && z_most - z_least <= room * height_mm;
     };
     // The package's own size is more than any mirror in it needs; below a ten thousandth there is none.
-    double most = std::min(spec.package_radius_mm, spec.package_height_mm), least = 1e-4 * most;
+    double most = std::min(radius_mm, height_mm), least = 1e-4 * most;
     if (fits(most)) return most;
     if (!fits(least))
       return fmt::format("no mirror of this kind fits a package of radius {:.4g} and height {:.4g} {}",
-                         scene_.to_scene_unit(spec.package_radius_mm),
-                         scene_.to_scene_unit(spec.package_height_mm), symbol(scene_.unit));
+                         scene_.to_scene_unit(radius_mm), scene_.to_scene_unit(height_mm),
+                         symbol(scene_.unit));
     for (int i = 0; i < 40; ++i) {
       const double middle = std::sqrt(least * most);
       (fits(middle) ? least : most) = middle;
@@ -177,13 +174,45 @@ class FromNothing {
 
   const Scene& scene_;
   const TailoringTask& task_;
+  RayMap kind_;
 };
 
-std::string miss_in_words(const Tailored& tailored, RayMap kind) {
+/// A mirror from nothing with what decides between the maps.
+struct Made {
+  Tailored tailored;
+  RayMap kind;
+  double light_error_rel;
+};
+
+/// Takes the mirror for the point source to one for the real source, and says what is possible.
+void serve_extended_source(const Scene& scene, TailoringTask& task, Made& made) {
+  const ImageRange images = source_images(task.layout, scene.source.radius_mm, made.tailored.profile);
+  const MirrorFactory factory(scene, task, made.kind);
+  const auto make = [&](const WantedLight& wanted) -> std::optional<Profile> {
+    const FluxMap map(task.flux, scene.mirror.reflectance, wanted);
+    if (!(map.wanted_w() < map.available_w(pi))) return std::nullopt;
+    auto mirror = factory.make(map);
+    if (auto* tailored = std::get_if<Tailored>(&mirror)) return std::move(tailored->profile);
+    return std::nullopt;
+  };
+  Compensated found = compensate(scene, task, made.tailored.profile, images.least_mm, make);
+  task.notes.push_back(fmt::format(
+      "the source is no point: its images on the near field are {:.3g} to {:.3g} {} in radius, and no edge "
+      "of "
+      "the light is sharper than the smallest of them. A point source's mirror is off by {:.2g} %, the best "
+      "of "
+      "{} compensated ones by {:.2g} % (noise {:.1g} %)",
+      scene.to_scene_unit(images.least_mm), scene.to_scene_unit(images.most_mm), symbol(scene.unit),
+      100 * found.first_error_rel, found.mirrors, 100 * found.error_rel, 100 * found.noise_rel));
+  made.tailored.profile = std::move(found.profile);
+}
+
+std::string miss_in_words(const Tailored& tailored, RayMap kind, double seconds) {
   return fmt::format(
-      "tailored by the {} ray map: rays miss their places by {:.2g} rad, {} evaluations from {} {}",
+      "tailored by the {} ray map: rays miss their places by {:.2g} rad, {} evaluations from {} {} in {:.3g} "
+      "ms",
       name(kind), tailored.miss_rad, tailored.evaluations, tailored.starts,
-      tailored.starts == 1 ? "start" : "starts");
+      tailored.starts == 1 ? "start" : "starts", 1e3 * seconds);
 }
 
 TailoredStart result(TailoringTask task, Tailored tailored, RayMap kind, Clock::time_point begin) {
@@ -197,8 +226,8 @@ TailoredStart result(TailoringTask task, Tailored tailored, RayMap kind, Clock::
                       tailored.starts,
                       0,
                       std::move(task.notes)};
-  start.notes.push_back(miss_in_words(tailored, kind));
   start.seconds = seconds_since(begin);
+  start.notes.push_back(miss_in_words(tailored, kind, start.seconds));
   return start;
 }
 
@@ -237,21 +266,22 @@ TailoredStart tailored_from_nothing(const Scene& scene) {
   const auto begin = Clock::now();
   const double apex_side = scene.source.position_mm.z() < scene.near_field.center_mm().z() ? -1 : 1;
   TailoringTask task = tailoring_task(scene, apex_side);
-  const FromNothing maker(scene, task);
-  std::optional<FromNothing::Made> best;
+  std::optional<Made> best;
   std::string why_not;
   for (const RayMap kind : wished_maps(scene)) {
-    auto made = maker.make(kind);
+    auto made = MirrorFactory(scene, task, kind).make(task.map);
     if (const auto* why = std::get_if<std::string>(&made)) {
       why_not += fmt::format("{}{}: {}", why_not.empty() ? "" : "; ", name(kind), *why);
       continue;
     }
-    auto& candidate = std::get<FromNothing::Made>(made);
+    Made candidate{std::get<Tailored>(std::move(made)), kind, 0};
+    candidate.light_error_rel = light_error_rel(scene, task, candidate.tailored.profile);
     if (!best || candidate.light_error_rel < best->light_error_rel) best = std::move(candidate);
   }
   if (!best)
     throw scene.settings.error("start", "no tailored mirror reaches this target", why_not,
                                "another tailored.vertex, a larger package, or a smaller field");
+  if (scene.source.radius_mm > 0) serve_extended_source(scene, task, *best);
   return result(std::move(task), std::move(best->tailored), best->kind, begin);
 }
 

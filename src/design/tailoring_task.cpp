@@ -8,7 +8,6 @@
 
 #include "base/tolerance.h"
 #include "base/units.h"
-#include "sim/simulation.h"
 #include "sim/source.h"
 
 namespace catoptric::design {
@@ -69,7 +68,7 @@ class Maker {
         polar_flux(scene.source.power_w, far_exponent(scene.source), scene.source.axis.z() * apex_side > 0);
     const std::shared_ptr<sim::Source> source = make_source(scene.source);
     direct_ = [source, z_mm = layout_.field_z_mm, normal = scene.near_field.normal()](double radius_mm) {
-      return sim::unshaded_w_per_mm2(*source, {{radius_mm, 0, z_mm}, normal});
+      return source->unhindered_w_per_mm2({radius_mm, 0, z_mm}, normal);
     };
   }
 
@@ -81,7 +80,10 @@ class Maker {
     const double unreachable = check_direct(level, notes);
     FluxMap map(flux_, scene_.mirror.reflectance, wanted);
     check_power(map);
-    return {layout_, std::move(map), std::move(wanted), level, unreachable, std::move(notes)};
+    const auto total = [level, all = target_.total_w_per_mm2, end_mm = target_.reach_mm](double radius_mm) {
+      return radius_mm <= end_mm ? level * all(radius_mm) : 0.0;
+    };
+    return {layout_, flux_, std::move(map), std::move(wanted), total, level, unreachable, std::move(notes)};
   }
 
  private:

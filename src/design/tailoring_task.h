@@ -13,9 +13,11 @@ namespace catoptric::design {
 /// What a tailored mirror of a scene has to do.
 struct TailoringTask {
   AxialLayout layout;
+  PolarFlux flux;  ///< of the source, taken for a point
   FluxMap map;
   WantedLight wanted;  ///< from the mirror: the target less the direct light
-  double level;        ///< factor on the target's irradiance
+  std::function<double(double radius_mm)> total_w_per_mm2;  ///< the target at its level, 0 beyond its end
+  double level;                                             ///< factor on the target's irradiance
   double unreachable_rel;
   std::vector<std::string> notes;
 };

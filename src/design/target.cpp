@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 
 #include "base/ordered_sum.h"
 #include "base/tolerance.h"
@@ -33,26 +35,34 @@ Target from_radius(const Scene& scene) {
   return target;
 }
 
-/// What a source on the axis sends straight to a plane across it, at a distance from the axis; off the axis
-/// it is no function of the distance, and left to the kernel with the rest.
-double direct_w_per_mm2(const Scene& scene, double distance_mm) {
-  const Vector3& position_mm = scene.source.position_mm;
-  if (position_mm.x() != 0 || position_mm.y() != 0) return 0.0;
-  return sim::PointSource(position_mm, scene.source.power_w)
-      .unhindered_w_per_mm2({distance_mm, 0, scene.near_field.center_mm().z()}, scene.near_field.normal());
+/// What a source that is symmetric about the axis sends straight to a plane across it, by the distance from
+/// the axis; else it is no function of the distance, and left to the kernel with the rest.
+std::function<double(double)> direct_light(const Scene& scene) {
+  const std::shared_ptr<const sim::Source> source = make_source(scene.source);
+  const Vector3 position_mm = source->position_mm();
+  if (position_mm.x() != 0 || position_mm.y() != 0 || source->tilt_rad() != 0)
+    return [](double) { return 0.0; };
+  return
+      [source, z_mm = scene.near_field.center_mm().z(), normal = scene.near_field.normal()](double radius) {
+        return source->unhindered_w_per_mm2({radius, 0, z_mm}, normal);
+      };
 }
 
 /// The wanted light as an evaluation would show it: direct light is computed without a kernel, so only the
-/// rest, which the mirror must give, is seen through it.
+/// rest, which the mirror must give, is seen through it. Beyond the target's reach the mirror is asked for
+/// nothing, and what the source sends there by itself is no mirror's fault.
 void smooth(const Scene& scene, const RadialTarget& wanted, Target& target) {
   std::vector<double> radii_mm, breaks_mm(scene.target.radii_mm);
   for (const sim::FieldSample& sample : target.samples) radii_mm.push_back(radius_mm(sample));
   breaks_mm.push_back(wanted.reach_mm);
-  target.irradiance_w_per_mm2 =
-      kernel_means([&](double r) { return wanted.total_w_per_mm2(r) - direct_w_per_mm2(scene, r); },
-                   breaks_mm, radii_mm, scene.model.estimate.kernel, *scene.model.estimate.kernel_radius_mm);
-  for (std::size_t i = 0; i < radii_mm.size(); ++i)
-    target.irradiance_w_per_mm2[i] += direct_w_per_mm2(scene, radii_mm[i]);
+  const auto direct = direct_light(scene);
+  const auto from_mirror = [&](double radius) {
+    return radius > wanted.reach_mm ? 0.0 : wanted.total_w_per_mm2(radius) - direct(radius);
+  };
+  target.irradiance_w_per_mm2 = kernel_means(from_mirror, breaks_mm, radii_mm, scene.model.estimate.kernel,
+                                             *scene.model.estimate.kernel_radius_mm);
+  for (std::size_t i = 0; i < radii_mm.size(); ++i) target.irradiance_w_per_mm2[i] += direct(radii_mm[i]);
+  target.through_kernel = true;
 }
 
 /// Weight of a place by its zone, or between the rows of a table.

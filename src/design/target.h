@@ -15,6 +15,7 @@ struct Target {
   std::vector<double> weights = {};          ///< how much a sample counts; empty: all alike
   std::vector<char> within_reach = {};       ///< 1 at samples within the target's outer edge
   std::vector<char> lit = {};                ///< 1 where light is wanted, by the target without a kernel
+  bool through_kernel = false;  ///< seen through the scene's kernel, whose blur cancels in the comparison
 };
 
 /// Reflected irradiance of a paraboloid with the source in its focus, at a distance from the axis.

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/profile.h"
+#include "design/scene.h"
+#include "design/tailoring_task.h"
+
+namespace catoptric::design {
+
+/// A mirror for a wanted light, as for a point source; nothing where there is none.
+using MirrorMaker = std::function<std::optional<Profile>(const WantedLight& wanted)>;
+
+/// A mirror that was made for the real source by deceiving the point source's balance.
+struct Compensated {
+  Profile profile;
+  double first_error_rel;  ///< of the point source's mirror under the real source
+  double error_rel;        ///< of this one; relative root mean square over the near field's area
+  double noise_rel;        ///< of these errors, by the spread of the photon sets
+  int mirrors;             ///< made and lit on the way
+};
+
+/// Where the source is no point, asks the point source's balance for more light where the real source gave
+/// too little, and less where too much, and for a field a little larger or smaller, until the real source's
+/// light comes no nearer to the target.
+///
+/// Each mirror is lit by the real source, with photons folded about the axis and the same random numbers for
+/// all mirrors. The wanted light is multiplied by the damped ratio of target and result, smoothed over the
+/// image of the source, which no mirror can sharpen.
+/// @in    a source that is symmetric about the axis; image_mm: radius of the source's image on the near field
+/// @cost  some 50 mirrors of 20 to 50 ms
+/// @from  the feedback design of Fournier, Cassarly & Rolland 2009, "Designing freeform reflectors for
+///        extended sources"
+Compensated compensate(const Scene& scene, const TailoringTask& task, const Profile& first, double image_mm,
+                       const MirrorMaker& make);
+
+/// Radii of the source's images on the near field: the smallest and the largest that points of the mirror
+/// throw there.
+struct ImageRange {
+  double least_mm, most_mm;
+};
+ImageRange source_images(const AxialLayout& layout, double source_radius_mm, const Profile& profile);
+
+}  // namespace catoptric::design
