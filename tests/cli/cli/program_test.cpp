@@ -163,7 +163,7 @@ TEST_CASE("every search can be asked for by name, keeps to its budget and better
       CHECK((ended.code == 0 || ended.code == 5));
       const json result = parsed(folder.path() / "run" / "result.json");
       CHECK(result.at("counts").at("evaluations") <= 40);
-      CHECK(result.at("search_value") < 0.2);  // the start has 0.285
+      CHECK(result.at("search_value") < 0.7);  // the start has 1.64
     }
 }
 
