@@ -123,8 +123,7 @@ std::string sentence(std::span<const ConstraintState> states, LengthUnit unit) {
                           state.at_least ? "at least" : "at most", shown(state, state.limit, unit),
                           shown(state, state.violation, unit), state.at_least ? "too little" : "too much");
   }
-  return broken.empty() ? fmt::format("All {} constraints are met.", states.size())
-                        : "Constraints that are not satisfied: " + broken + ".";
+  return broken.empty() ? "All constraints are met." : "Constraints that are not satisfied: " + broken + ".";
 }
 
 }  // namespace catoptric::design
