@@ -118,10 +118,11 @@ std::string sentence(std::span<const ConstraintState> states, LengthUnit unit) {
   std::string broken;
   for (const ConstraintState& state : states) {
     if (state.violation == 0) continue;
-    broken += fmt::format("{}{} is {:.6g} {}, {} {:.6g} is allowed ({:.3g} {})", broken.empty() ? "" : "; ",
-                          state.name, shown(state, state.value, unit), unit_of(state, unit),
-                          state.at_least ? "at least" : "at most", shown(state, state.limit, unit),
-                          shown(state, state.violation, unit), state.at_least ? "too little" : "too much");
+    broken += fmt::format("{}{} is {:.6g} {}, {} {:.6g} is allowed ({:.3g} {} {})",
+                          broken.empty() ? "" : "; ", state.name, shown(state, state.value, unit),
+                          unit_of(state, unit), state.at_least ? "at least" : "at most",
+                          shown(state, state.limit, unit), shown(state, state.violation, unit),
+                          unit_of(state, unit), state.at_least ? "too little" : "too much");
   }
   return broken.empty() ? "All constraints are met." : "Constraints that are not satisfied: " + broken + ".";
 }

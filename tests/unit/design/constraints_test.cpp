@@ -121,7 +121,8 @@ TEST_CASE("a loop is found with its length, and a polygon that advances proves t
     return sum * (to - from) / steps / 3;
   };
   const Loops found = loops(looped);
-  CHECK(found.share == Approx(length(0.5 - half, 0.5 + half) / length(0, 1)).epsilon(1e-3));
+  // at the loop's tip a chord turns by a quarter of a radian, which leaves it 1 / (16 * 24) short
+  CHECK(found.share == Approx(length(0.5 - half, 0.5 + half) / length(0, 1)).epsilon(1.0 / (16 * 24)));
   CHECK_FALSE(found.certified);
   const Loops arch = loops(Profile::bezier({{2, 0, 1}, {4, 8, 1}, {8, 8, 1}, {10, 0, 1}}));
   CHECK(arch.share == 0);
@@ -147,7 +148,9 @@ TEST_CASE("the share of the landing map that runs backwards, by hand") {
   Constraints constraints;
   constraints.no_folds = Constraints::Landing{5, 0, size};
   CHECK(violation(constraints, wave) == Approx(share));
-  CHECK(violation(constraints, bowl()) == 0);
+  CHECK(violation(constraints, Profile::bezier({{0, 10, 1}, {5, 10, 1}, {10, 5, 1}})) == 0);
+  // half way to its centre a sphere's light crosses: spherical aberration
+  CHECK(violation(constraints, bowl()) > 0.1);
 }
 
 TEST_CASE("what is broken never beats what is not, and more broken is worse") {
