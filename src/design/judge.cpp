@@ -88,6 +88,12 @@ Figure judge_metric(Metric metric, const Scene& scene, const Target& target, con
   return figure;
 }
 
+/// The scene with a candidate's source: a share of the power is a share of that source's.
+Scene with_source(Scene scene, const Candidate& candidate) {
+  scene.source = candidate.source;
+  return scene;
+}
+
 /// All metrics, and of them the scene's as the search saw it.
 void fill_metrics(Judgement& judgement, const Scene& scene, const Target& target, const Rows& reflected,
                   const Rows& sharp) {
@@ -157,7 +163,8 @@ Judgement judge(const Scene& scene, const Target& target, const Candidate& candi
   }
   fill_fields(judgement, reflected, sharp);
   // Where the target is blurred alike, it is the blurred field that compares to it.
-  fill_metrics(judgement, scene, target, reflected, target.through_kernel ? reflected : sharp);
+  fill_metrics(judgement, with_source(scene, candidate), target, reflected,
+               target.through_kernel ? reflected : sharp);
   return judgement;
 }
 
@@ -187,7 +194,7 @@ Judgement judge_to_accuracy(const Scene& scene, const Target& target, const Cand
   fill_fields(judgement, field.by_set, field.by_set);
   judgement.field_bias_w_per_mm2 =
       field.bias_rel * root_mean_square(sum(judgement.direct, judgement.reflected));
-  fill_metrics(judgement, scene, target, field.by_set, field.by_set);
+  fill_metrics(judgement, with_source(scene, candidate), target, field.by_set, field.by_set);
   judgement.reflected = std::move(field.reflected);
   return judgement;
 }

@@ -116,7 +116,11 @@ double value_at(const Scene& scene, sim::Rung rung, const Target& target, const 
   if (!candidate) return std::numeric_limits<double>::infinity();
   if (const double broken = violation(scene.constraints, candidate->profile); broken > 0)
     return infeasible_objective(broken);
-  return objective(scene, total_by_rung(scene, rung, *candidate, target.samples, search_stream), target);
+  const std::vector<double> total = total_by_rung(scene, rung, *candidate, target.samples, search_stream);
+  if (candidate->source.power_w == scene.source.power_w) return objective(scene, total, target);
+  Scene powered = scene;  // a share of the power is a share of this candidate's
+  powered.source = candidate->source;
+  return objective(powered, total, target);
 }
 
 optim::Outcome search(const Scene& scene, sim::Rung rung, const Target& target, const RunControl& control) {

@@ -122,7 +122,8 @@ Table convergence_table(const design::Scene& scene, const optim::Outcome& outcom
 
 Table landscape_table(const design::Scene& scene, const design::Landscape& landscape) {
   Table table;
-  for (const std::string& name : landscape.names) table.columns.push_back({name, design::unit_of_variable(name, scene.unit)});
+  for (const std::string& name : landscape.names)
+    table.columns.push_back({name, design::unit_of_variable(name, scene.unit)});
   table.columns.push_back({"value", objective_unit(scene)});
   std::size_t next = 0;
   for (double a : landscape.axes[0]) {

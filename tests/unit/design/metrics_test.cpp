@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "design/search.h"
+
 using namespace catoptric;
 using namespace catoptric::design;
 
@@ -89,4 +91,19 @@ TEST_CASE("zone weights reach the samples") {
   const Target made = make_target(spec);
   for (std::size_t i = 0; i < made.samples.size(); ++i)
     CHECK(made.weights[i] == (made.samples[i].point_mm.head<2>().norm() <= 5 ? 4.0 : 0.5));
+}
+
+TEST_CASE("flux is a share of the power that the design has, where the power is a variable") {
+  const std::string text =
+      "unit = \"cm\"\n[source]\nposition = [0, 0, 5]\npower = 0.03\n[reflector]\npoints = [[0, 10], [5, 10], "
+      "[10, 5]]\n[near_field]\nradius = 5\n[search]\nmetric = \"enclosed-flux\"\n[target]\nkind = "
+      "\"uniform\"\n"
+      "radius = 4\nirradiance = 1\n[variables.source.power]\nstep = 0.01\nlower = 0.01\nupper = 1\n";
+  const Scene spec = make_scene(Settings::parse(text, "s.toml", scene_keys()));
+  const Target wanted = make_target(spec);
+  const SceneFamily family(spec.with(spec.profile), {"source.power"}, spec.unit);
+  const double once = value_at(spec, sim::Rung::tubes, wanted, family, std::vector<double>{0.03});
+  const double double_power = value_at(spec, sim::Rung::tubes, wanted, family, std::vector<double>{0.06});
+  CHECK(once > 0.1);
+  CHECK(double_power == Approx(once).epsilon(1e-12));
 }
