@@ -48,6 +48,12 @@ std::function<double(double)> direct_light(const Scene& scene) {
       };
 }
 
+/// Whether light is registered on the disc about the axis and nowhere beyond.
+bool ends_at_edge(const sim::NearField& field) {
+  return field.material() && field.shape() == sim::NearField::Shape::disc && field.center_mm().x() == 0 &&
+         field.center_mm().y() == 0;
+}
+
 /// The wanted light as an evaluation would show it: direct light is computed without a kernel, so only the
 /// rest, which the mirror must give, is seen through it. Beyond the target's reach the mirror is asked for
 /// nothing, and what the source sends there by itself is no mirror's fault.
@@ -61,6 +67,18 @@ void smooth(const Scene& scene, const RadialTarget& wanted, Target& target) {
   };
   target.irradiance_w_per_mm2 = kernel_means(from_mirror, breaks_mm, radii_mm, scene.model.estimate.kernel,
                                              *scene.model.estimate.kernel_radius_mm);
+  if (ends_at_edge(scene.near_field)) {
+    // Estimates on a real disc know no light beyond it and make up for the kernel's share there.
+    const double edge_mm = scene.near_field.half_width_mm();
+    breaks_mm.push_back(edge_mm);
+    const auto means = [&](const std::function<double(double)>& light) {
+      return kernel_means([&](double radius) { return radius > edge_mm ? 0.0 : light(radius); }, breaks_mm,
+                          radii_mm, scene.model.estimate.kernel, *scene.model.estimate.kernel_radius_mm);
+    };
+    target.irradiance_w_per_mm2 = means(from_mirror);
+    const std::vector<double> inside = means([](double) { return 1.0; });
+    for (std::size_t i = 0; i < inside.size(); ++i) target.irradiance_w_per_mm2[i] /= inside[i];
+  }
   for (std::size_t i = 0; i < radii_mm.size(); ++i) target.irradiance_w_per_mm2[i] += direct(radii_mm[i]);
   target.through_kernel = true;
 }
