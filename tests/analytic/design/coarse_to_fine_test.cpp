@@ -66,7 +66,7 @@ TEST_CASE("the fit's norm is the scene's objective, and its derivatives are thos
     const Scene scene = start_a({{"search.metric", metric, "test"}});
     const Target target = make_target(scene);
     const optim::LeastSquaresProblem problem = fit_problem(scene, target);
-    const ProfileFamily family(scene.profile, names(scene.variables), scene.unit);
+    const SceneFamily family(scene.with(scene.profile), names(scene.variables), scene.unit);
     const std::size_t count = problem.residual_count;
     std::vector<double> x{1.3, 9.4}, residuals(count), jacobian(2 * count), plus(count), minus(count);
     REQUIRE(problem.evaluate(x, residuals, jacobian.data()));
