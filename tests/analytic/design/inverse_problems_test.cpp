@@ -32,12 +32,15 @@ TEST_CASE("place, power and reflectance are found from the light of a known mirr
 }
 
 TEST_CASE("without direct light power and reflectance are one: the light is met, not the truth") {
-  // the near field looks down, where no direct light comes from below ... and the mirror's does
-  const Scene scene = example("find_source.toml", {{"near_field.center", "[0, 0, 49.5]", "test"},
-                                                   {"near_field.radius", "40", "test"},
-                                                   {"variables.source.z.lower", "47.9999", "test"},
-                                                   {"variables.source.z.start", "48", "test"},
-                                                   {"variables.source.z.upper", "48.0001", "test"}});
+  // the near field stands above the source and looks up: no light comes straight to it
+  const Scene scene =
+      example("find_source.toml", {{"near_field.center", "[0, 0, 49.5]", "test"},
+                                   {"near_field.radius", "40", "test"},
+                                   {"variables.source.z.lower", "47.9999", "test"},
+                                   {"variables.source.z.start", "48", "test"},
+                                   {"variables.source.z.upper", "48.0001", "test"},
+                                   {"variables.source.power.start", "15", "test"},
+                                   {"variables.reflector.reflectance.start", "0.61", "test"}});
   const DesignResult result = run_design(scene, {});
   const double power = result.best.variables[1], reflectance = result.best.variables[2];
   CHECK(power * reflectance == Approx(8).epsilon(1e-3));
