@@ -77,7 +77,9 @@ bool is_length(SceneVariable variable) {
 std::string unit_of_variable(std::string_view name, LengthUnit unit) {
   const auto beside = parse_scene_variable(name);
   if (beside == SceneVariable::source_power) return "W";
-  const bool length = beside ? is_length(*beside) : name.front() != 'w';
+  if (name.starts_with("angle")) return "rad";
+  if (name.starts_with("kappa")) return "1/" + std::string(symbol(unit));
+  const bool length = beside ? is_length(*beside) : name.front() != 'w' && !name.starts_with("logw");
   return length ? std::string(symbol(unit)) : "";
 }
 
@@ -100,7 +102,11 @@ std::optional<std::string> value_defect(const Candidate& base, SceneVariable var
 }
 
 SceneFamily::SceneFamily(Candidate base, const std::vector<std::string>& all, LengthUnit unit)
-    : base_(std::move(base)), shape_(base_.profile, shape_names(all), unit), unit_mm_(millimetres_per(unit)) {
+    : SceneFamily(base, ProfileFamily(base.profile, shape_names(all), unit), all, unit) {}
+
+SceneFamily::SceneFamily(Candidate base, ShapeFamily shape, const std::vector<std::string>& all,
+                         LengthUnit unit)
+    : base_(std::move(base)), shape_(std::move(shape)), unit_mm_(millimetres_per(unit)) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (const auto variable = parse_scene_variable(all[i])) {
       scene_places_.push_back(i);
@@ -115,7 +121,7 @@ std::optional<Candidate> SceneFamily::at(std::span<const double> values) const {
   CATOPTRIC_EXPECTS(values.size() == shape_places_.size() + scene_places_.size());
   std::vector<double> shape;
   for (const std::size_t place : shape_places_) shape.push_back(values[place]);
-  auto profile = shape_.at(shape);
+  auto profile = std::visit([&](const auto& each) { return each.at(shape); }, shape_);
   if (!profile) return std::nullopt;
   Candidate candidate{std::move(*profile), base_.source, base_.mirror};
   for (std::size_t i = 0; i < scene_places_.size(); ++i) {

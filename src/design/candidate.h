@@ -5,10 +5,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "base/profile.h"
 #include "base/units.h"
+#include "design/curvature_profile.h"
+#include "design/free_profile.h"
 #include "design/variables.h"
 #include "sim/material.h"
 #include "sim/source.h"
@@ -61,11 +64,16 @@ double scene_value(const Candidate& candidate, SceneVariable variable, LengthUni
 /// What keeps a value from being this variable's, in words, or nothing.
 std::optional<std::string> value_defect(const Candidate& base, SceneVariable variable, double value);
 
+/// What moves the shape alone.
+using ShapeFamily = std::variant<ProfileFamily, FreeProfile, CurvatureProfile>;
+
 /// Moves named variables of a fixed candidate, shape and all; the rest stays.
 class SceneFamily {
  public:
   /// @in names of components of the profile or of scene variables, in any order
   SceneFamily(Candidate base, const std::vector<std::string>& names, LengthUnit unit);
+  /// @in shape  whose variables are the names that are no scene variables, in their order
+  SceneFamily(Candidate base, ShapeFamily shape, const std::vector<std::string>& names, LengthUnit unit);
 
   /// The candidate with the variables set, or nothing where these values make none (the generatrix crosses
   /// the axis, no power, ...).
@@ -78,7 +86,7 @@ class SceneFamily {
 
  private:
   Candidate base_;
-  ProfileFamily shape_;
+  ShapeFamily shape_;
   std::vector<std::size_t> shape_places_, scene_places_;
   std::vector<SceneVariable> scene_variables_;
   double unit_mm_;

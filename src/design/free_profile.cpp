@@ -38,7 +38,27 @@ std::vector<bool> held_weights(const Profile& profile) {
   return held;
 }
 
+double extent_mm(const Profile& profile) {
+  return std::hypot(profile.r_max_mm(), profile.z_max_mm() - profile.z_min_mm());
+}
+
 }  // namespace
+
+FreeProfileOptions package_about(const Profile& base, LengthUnit unit) {
+  double r_most = 0, z_least = HUGE_VAL, z_most = -HUGE_VAL;
+  for (const ControlPoint& point : base.points()) {
+    r_most = std::max(r_most, point.r_mm);
+    z_least = std::min(z_least, point.z_mm);
+    z_most = std::max(z_most, point.z_mm);
+  }
+  const double margin_mm = 0.5 * extent_mm(base);
+  FreeProfileOptions options;
+  options.unit = unit;
+  options.r_greatest_mm = r_most + margin_mm;
+  options.z_least_mm = z_least - margin_mm;
+  options.z_greatest_mm = z_most + margin_mm;
+  return options;
+}
 
 FreeProfile::FreeProfile(Profile base, const FreeProfileOptions& options)
     : base_(std::move(base)), options_(options), unit_mm_(millimetres_per(options.unit)) {
@@ -46,19 +66,12 @@ FreeProfile::FreeProfile(Profile base, const FreeProfileOptions& options)
     throw InputError({"the generatrix does not begin and end at its first and last control point", "",
                       "a free profile needs knots repeated degree + 1 times at both ends",
                       "leave the knots out"});
-  extent_mm_ = std::hypot(base_.r_max_mm(), base_.z_max_mm() - base_.z_min_mm());
+  extent_mm_ = extent_mm(base_);
+  const FreeProfileOptions about = package_about(base_, options.unit);
+  if (!options_.r_greatest_mm) options_.r_greatest_mm = about.r_greatest_mm;
+  if (!options_.z_least_mm) options_.z_least_mm = about.z_least_mm;
+  if (!options_.z_greatest_mm) options_.z_greatest_mm = about.z_greatest_mm;
   const std::vector<ControlPoint>& points = base_.points();
-  double r_most = 0, z_least = HUGE_VAL, z_most = -HUGE_VAL;
-  for (const ControlPoint& point : points) {
-    r_most = std::max(r_most, point.r_mm);
-    z_least = std::min(z_least, point.z_mm);
-    z_most = std::max(z_most, point.z_mm);
-  }
-  const double margin_mm = 0.5 * extent_mm_;
-  options_.r_greatest_mm = options.r_greatest_mm.value_or(r_most + margin_mm);
-  options_.z_least_mm = options.z_least_mm.value_or(z_least - margin_mm);
-  options_.z_greatest_mm = options.z_greatest_mm.value_or(z_most + margin_mm);
-
   const ControlPoint& vertex = points[0];
   smooth_vertex_ = vertex.r_mm == 0 && base_.degree() > 1 &&
                    std::abs(points[1].z_mm - vertex.z_mm) <= smooth_slope * std::abs(points[1].r_mm);

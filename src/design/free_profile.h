@@ -24,6 +24,10 @@ struct FreeProfileOptions {
   double least_weight_rel = 0.05, greatest_weight_rel = 20;
 };
 
+/// Options whose package is the default one about `base`, written out, so that it stays when the profile does
+/// not.
+FreeProfileOptions package_about(const Profile& base, LengthUnit unit);
+
 /// A whole generatrix as a design vector without directions that leave the shape as it is.
 ///
 /// Of paper eq. 6 there is left out: r_0, and with r_0 = 0 and z_1 = z_0 (a smooth vertex) z_1, which moves

@@ -109,6 +109,10 @@ const std::vector<Key>& scene_table() {
       {.path = "search.reach", .type = number, .least = 0, .meaning = "the search ends when the metric is at or below"},
       {.path = "search.restarts", .type = integer, .least = 0, .greatest = 1e6, .standard = "0", .meaning = "further searches from points all over the box, within the same most_evaluations"},
       {.path = "search.population", .type = integer, .least = 0, .greatest = 1e6, .standard = "0", .meaning = "design vectors in one generation; 0: what suits the method"},
+      {.path = "search.free", .type = choice, .choices = {"listed", "profile", "curvature"}, .standard = "\"listed\"", .meaning = "what a search moves of the mirror's shape: the variables listed under [variables]; all of the generatrix, less what leaves its shape as it is (weights as logarithms, logw1); or its curvature at equal arc lengths. With the last two, listed variables give their start, with profile their step and bounds too"},
+      {.path = "search.hold_vertex", .type = boolean, .standard = "false", .meaning = "search.free profile and curvature: true holds the vertex' z0"},
+      {.path = "search.curvature_stations", .type = integer, .least = 2, .greatest = 64, .standard = "8", .meaning = "search.free curvature: how many curvatures there are, vertex and rim among them"},
+      {.path = "search.refine", .type = texts, .standard = "[]", .meaning = "search.free profile: steps that give the best mirror more freedom without changing it, each with a search of its own: degree N, spans N"},
       {.path = "search.kernels", .type = numbers, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "radii of kernels, widest first, to search with before model.kernel_radius: each search begins where the last one ended"},
 
       {.path = "constraints.rim_radius_min", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "least radius of the rim, where the generatrix ends"},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "design/design_space.h"
 #include "design/evaluator.h"
 #include "design/metrics.h"
 #include "design/search.h"
@@ -62,7 +63,7 @@ sim::Rung rung_for(const Scene& scene, const LandscapeSpec& spec, const SceneFam
 }  // namespace
 
 SceneFamily family_of(const Scene& scene) {
-  return {scene.with(scene.profile), names(scene.variables), scene.unit};
+  return {scene.with(scene.profile), shape_family(scene), names(scene.variables), scene.unit};
 }
 
 Profile start_profile(const Scene& scene) { return start_candidate(scene).profile; }
@@ -88,9 +89,11 @@ DesignResult run_design(const Scene& scene, const RunControl& control) {
   const Stopwatch watch;
   Target target = make_target(scene);
   require_metric(scene, target);
-  optim::Outcome outcome = search(scene, plan.rung, target, control);
+  RefinedOutcome found =
+      search_in_stages(scene, [&](const Scene& stage) { return search(stage, plan.rung, target, control); });
+  const optim::Outcome& outcome = found.outcome;
   const double search_seconds = watch.seconds();
-  const Candidate best = family.at(outcome.best).value_or(start);
+  const Candidate best = family_of(found.last).at(outcome.best).value_or(start);
   control.tell({"verify", 1.0, outcome.value < infeasible_floor ? outcome.value : NAN, outcome.evaluations});
   Judgement start_judgement = judge(scene, target, start, sim::Rung::photons, verdict_stream);
   Judgement best_judgement = scene.accuracy_rel
@@ -104,12 +107,13 @@ DesignResult run_design(const Scene& scene, const RunControl& control) {
           std::move(plan),
           outcome,
           {start.profile, starts(scene.variables), std::move(start_judgement),
-           states(scene.constraints, start.profile), start.source},
+           states(scene.constraints, start.profile), start.source, names(scene.variables)},
           {best.profile, outcome.best, std::move(best_judgement), states(scene.constraints, best.profile),
-           best.source},
+           best.source, names(found.last.variables)},
           photons,
           search_seconds,
-          watch.seconds()};
+          watch.seconds(),
+          std::move(found.stages)};
 }
 
 sim::Plan simulation_plan(const Scene& scene, const Candidate& candidate) {
@@ -134,7 +138,7 @@ SimulationResult run_simulation(const Scene& scene, const RunControl& control) {
   return {std::move(target),
           std::move(plan),
           {start.profile, starts(scene.variables), std::move(judgement),
-           states(scene.constraints, start.profile), start.source},
+           states(scene.constraints, start.profile), start.source, names(scene.variables)},
           photons,
           watch.seconds()};
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "design/judge.h"
+#include "design/refinement.h"
 #include "design/scene.h"
 #include "design/target.h"
 #include "optim/outcome.h"
@@ -35,10 +36,11 @@ struct RunControl {
 /// A mirror with its variables and its verdict.
 struct Judged {
   Profile profile;
-  std::vector<double> variables;  ///< in the order and units of scene.variables
+  std::vector<double> variables;  ///< lengths in the scene's unit
   Judgement judgement;
   std::vector<ConstraintState> constraints;  ///< how it stands to the scene's
   SourceSpec source;                         ///< that it was judged with
+  std::vector<std::string> names;            ///< of the variables; more than the scene's after a refinement
 };
 
 /// What `design` found.
@@ -47,9 +49,10 @@ struct DesignResult {
   sim::Plan plan;  ///< what the search computed the light with, and why
   optim::Outcome search;
   Judged start, best;
-  std::uint64_t photons = 0;  ///< emitted in all
-  double search_seconds = 0;  ///< of the search alone
-  double seconds = 0;         ///< verdicts included, files not
+  std::uint64_t photons = 0;                 ///< emitted in all
+  double search_seconds = 0;                 ///< of the search alone
+  double seconds = 0;                        ///< verdicts included, files not
+  std::vector<RefinementStage> stages = {};  ///< of a refined search; one when there was no refinement
 };
 
 /// What `simulate` will compute the light with: the scene's rung, or where an accuracy is asked for the

@@ -10,6 +10,8 @@
 #include "base/tolerance.h"
 #include "base/units.h"
 #include "design/constraint_settings.h"
+#include "design/design_space.h"
+#include "design/refinement.h"
 #include "design/scene_defaults.h"
 #include "design/source_settings.h"
 #include "design/tailored_settings.h"
@@ -138,6 +140,47 @@ SearchSpec search(const Settings& settings, double unit_mm) {
           static_cast<long>(*settings.integer("search.restarts")),
           settings.number("search.reach"),
           std::move(kernels_mm)};
+}
+
+/// What a search moves where not only listed components are free: taken from the profile with the listed
+/// variables at their starts, which becomes the scene's.
+void set_free(const Settings& settings, SearchSpec& spec, Profile& base,
+              std::vector<optim::Variable>& variables, LengthUnit unit) {
+  const std::string free = *settings.text("search.free");
+  spec.free = free == "profile"     ? Freedom::profile
+              : free == "curvature" ? Freedom::curvature
+                                    : Freedom::listed;
+  spec.refine = *settings.texts("search.refine");
+  if (!spec.refine.empty() && spec.free != Freedom::profile)
+    throw settings.error("search.refine", "there is no freedom to gain",
+                         "refinement adds control points, which only a free profile moves",
+                         "search.free = \"profile\"");
+  if (spec.free == Freedom::listed) return;
+  std::vector<std::string> moved;
+  std::vector<double> values;
+  for (const optim::Variable& variable : variables)
+    if (!parse_scene_variable(variable.name)) {
+      moved.push_back(variable.name);
+      values.push_back(variable.start);
+    }
+  const auto start = ProfileFamily(base, moved, unit).at(values);
+  if (!start)
+    throw settings.error("search.free", "the start values make no mirror",
+                         "the generatrix must stay in the half-plane r >= 0", "move the start values");
+  base = *start;
+  spec.free_profile = package_about(base, unit);
+  spec.free_profile.hold_vertex = spec.curvature.hold_vertex = *settings.boolean("search.hold_vertex");
+  spec.curvature.unit = unit;
+  spec.curvature.degree = std::max(spec.curvature.degree, base.degree());
+  spec.curvature.stations = static_cast<int>(*settings.integer("search.curvature_stations"));
+  try {
+    variables = free_variables(base, spec, variables);
+    Profile finer = base;
+    for (const std::string& step : spec.refine) finer = refined(finer, step);
+  } catch (const InputError& error) {
+    throw settings.error(spec.refine.empty() ? "search.free" : "search.refine", error.parts().what,
+                         error.parts().why, error.parts().hint);
+  }
 }
 
 bool is_variable(const std::string& name, const Candidate& base) {
@@ -292,6 +335,9 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
   const sim::Material mirror = material(settings, "reflector");
   const Candidate written{base, source, mirror};
   std::vector<optim::Variable> decision = variables(settings, written, unit);
+  SearchSpec sought = search(settings, unit_mm);
+  if (settings.text("start") != "tailored")  // that is for listed variables, and comes first
+    set_free(settings, sought, base, decision, unit);
   std::optional<LandscapeSpec> drawn = landscape(settings, written);
   const Constraints bounds = read_constraints(settings, unit_mm, source.position_mm, field);
   Scene scene{.settings = {},
@@ -309,7 +355,7 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
               .target = std::move(desired),
               .tailored = tailored(settings, unit_mm),
               .model = model(settings, unit_mm),
-              .search = search(settings, unit_mm),
+              .search = std::move(sought),
               .constraints = bounds,
               .variables = std::move(decision),
               .landscape = std::move(drawn),

@@ -12,6 +12,8 @@
 #include "cad/export.h"
 #include "design/candidate.h"
 #include "design/constraints.h"
+#include "design/curvature_profile.h"
+#include "design/free_profile.h"
 #include "design/settings.h"
 #include "design/tailored_curve.h"
 #include "optim/problem.h"
@@ -58,6 +60,9 @@ struct ModelSpec {
 enum class Metric { rmse, relative_rmse, enclosed_flux, uniformity, efficiency };
 std::string_view name(Metric metric);
 
+/// What a search may move of the shape: named components, all of the profile, or its curvature.
+enum class Freedom { listed, profile, curvature };
+
 struct SearchSpec {
   std::string method;
   Metric metric;
@@ -67,6 +72,10 @@ struct SearchSpec {
   long restarts;                   ///< from elsewhere in the box, after the first search
   std::optional<double> reach;     ///< in the metric's unit
   std::vector<double> kernels_mm;  ///< radii of kernels to search with before the model's own
+  Freedom free = Freedom::listed;
+  FreeProfileOptions free_profile = {};
+  CurvatureProfileOptions curvature = {};
+  std::vector<std::string> refine = {};  ///< steps of refined()
 };
 
 struct LandscapeSpec {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "design/scene.h"
+#include "design/search.h"
 
 namespace catoptric::design {
 namespace {
@@ -66,9 +67,11 @@ std::string scene_text(const Scene& scene) {
     if (const auto found = scene.settings.all().find(key.path); found != scene.settings.all().end())
       write(found->first, found->second);
   }
-  for (const optim::Variable& variable : scene.variables)
+  std::vector<std::string> listed = scene.settings.names_under("variables");  // all that free ones start from
+  if (scene.search.free == Freedom::listed) listed = names(scene.variables);
+  for (const std::string& name : listed)
     for (const char* part : {"start", "step", "lower", "upper"}) {
-      const std::string path = fmt::format("variables.{}.{}", variable.name, part);
+      const std::string path = fmt::format("variables.{}.{}", name, part);
       write(path, scene.settings.all().find(path)->second);
     }
   return text;

@@ -4,6 +4,7 @@
 
 #include "base/ordered_sum.h"
 #include "design/constraints.h"
+#include "design/design_space.h"
 #include "design/evaluator.h"
 #include "design/metrics.h"
 #include "design/search.h"
@@ -20,17 +21,20 @@ namespace {
 struct Fit {
   const Scene& scene;
   const Target& target;
-  ProfileFamily family;
+  ShapeFamily family;
   std::vector<double> radii_mm;        ///< each once, rising
   std::vector<std::size_t> radius_of;  ///< of each sample
-  std::vector<std::size_t> columns;    ///< of the variables in the derivatives by all components
-  std::vector<double> per_unit;        ///< mm in a variable's unit; 1 for weights
+  Eigen::MatrixXd listed;     ///< of listed variables: components (rows) by variables, as FreeProfile::chain
   std::vector<double> scale;  ///< W/mm^2 to the residuals' unit, over the root of their number or weights
   sim::TubesOptions tubes;
 
   bool evaluate(std::span<const double> x, std::span<double> residuals, double* jacobian) const;
 
  private:
+  Eigen::MatrixXd chain(const Profile& profile) const {
+    const auto* free = std::get_if<FreeProfile>(&family);
+    return free ? free->chain(profile) : listed;
+  }
   bool fill(const sim::TubesField& field, const std::vector<double>& direct,
             std::span<double> residuals) const;
 };
@@ -44,7 +48,7 @@ bool Fit::fill(const sim::TubesField& field, const std::vector<double>& direct,
 }
 
 bool Fit::evaluate(std::span<const double> x, std::span<double> residuals, double* jacobian) const {
-  const auto profile = family.at(x);
+  const auto profile = std::visit([&](const auto& each) { return each.at(x); }, family);
   if (!profile || violation(scene.constraints, *profile) > 0) return false;  // a step too far
   const Stage stage(scene, *profile);
   const std::vector<double> direct = sim::direct_field(stage.scene, target.samples);
@@ -54,12 +58,25 @@ bool Fit::evaluate(std::span<const double> x, std::span<double> residuals, doubl
     return fill(sim::tubes_field(source, *profile, scene.mirror, plane, radii_mm, tubes), direct, residuals);
   const sim::TubesJacobian by_all =
       sim::tubes_jacobian(source, *profile, scene.mirror, plane, radii_mm, tubes);
+  const Eigen::MatrixXd by = by_all.by_variable * chain(*profile);
   for (std::size_t i = 0; i < residuals.size(); ++i)
-    for (std::size_t j = 0; j < columns.size(); ++j)
-      *jacobian++ =
-          scale[i] * per_unit[j] *
-          by_all.by_variable(static_cast<Eigen::Index>(radius_of[i]), static_cast<Eigen::Index>(columns[j]));
+    for (Eigen::Index j = 0; j < by.cols(); ++j)
+      *jacobian++ = scale[i] * by(static_cast<Eigen::Index>(radius_of[i]), j);
   return fill(by_all.field, direct, residuals);
+}
+
+/// Each listed variable is a component, in its unit.
+Eigen::MatrixXd listed_chain(const Scene& scene) {
+  const std::size_t points = scene.profile.points().size();
+  Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(3 * points),
+                                                static_cast<Eigen::Index>(scene.variables.size()));
+  for (std::size_t j = 0; j < scene.variables.size(); ++j) {
+    const Component component = *parse_component(scene.variables[j].name, points);
+    const std::size_t row = 3 * component.point + std::string_view("rzw").find(component.coordinate);
+    chain(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(j)) =
+        component.coordinate == 'w' ? 1.0 : millimetres_per(scene.unit);
+  }
+  return chain;
 }
 
 }  // namespace
@@ -75,19 +92,19 @@ void require_fit(const Scene& scene, sim::Rung rung) {
   for (const optim::Variable& variable : scene.variables)
     if (parse_scene_variable(variable.name))
       refuse("its derivatives are by the mirror's shape, not by " + variable.name);
+  if (scene.search.free == Freedom::curvature)
+    refuse("its derivatives are by control points, not by curvatures");
   if (more_is_better(scene.search.metric) || scene.target.free_scale)
     refuse("it makes rmse or relative-rmse small, against a target of absolute scale");
   if (scene.mirror.transmittance > 0) refuse("its derivatives are for mirrors that let no light through");
 }
 
 optim::LeastSquaresProblem fit_problem(const Scene& scene, const Target& target) {
-  const std::vector<std::string> variables = names(scene.variables);
   const std::vector<double> radii_mm = sim::ring_radii_mm(scene.near_field, target.samples);
   auto fit = std::make_shared<Fit>(Fit{scene,
                                        target,
-                                       ProfileFamily(scene.profile, variables, scene.unit),
+                                       shape_family(scene),
                                        radii_mm,
-                                       {},
                                        {},
                                        {},
                                        {},
@@ -97,11 +114,7 @@ optim::LeastSquaresProblem fit_problem(const Scene& scene, const Target& target)
   for (const double radius : radii_mm)
     fit->radius_of.push_back(
         static_cast<std::size_t>(std::ranges::lower_bound(fit->radii_mm, radius) - fit->radii_mm.begin()));
-  for (const std::string& variable : variables) {
-    const Component component = *parse_component(variable, scene.profile.points().size());
-    fit->columns.push_back(3 * component.point + std::string_view("rzw").find(component.coordinate));
-    fit->per_unit.push_back(component.coordinate == 'w' ? 1.0 : millimetres_per(scene.unit));
-  }
+  if (scene.search.free == Freedom::listed) fit->listed = listed_chain(scene);
   const double unit = scene.search.metric == Metric::rmse
                           ? to_w_per_m2(1.0)
                           : 1 / root_mean_square(target.irradiance_w_per_mm2, target.weights);

@@ -12,9 +12,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json variables_json(const design::Scene& scene, const std::vector<double>& values) {
+Json variables_json(const design::Judged& judged) {
   Json json = Json::object();
-  for (std::size_t i = 0; i < values.size(); ++i) json[scene.variables[i].name] = values[i];
+  for (std::size_t i = 0; i < judged.variables.size(); ++i) json[judged.names[i]] = judged.variables[i];
+  return json;
+}
+
+/// What each search of a refined design had and reached; empty where nothing was refined.
+Json stages_json(const std::vector<design::RefinementStage>& stages) {
+  Json json = Json::array();
+  if (stages.size() < 2) return json;
+  for (const design::RefinementStage& stage : stages)
+    json.push_back({{"step", stage.step},
+                    {"points", stage.points},
+                    {"variables", stage.variables},
+                    {"evaluations", stage.evaluations},
+                    {"search_value", stage.value}});
   return json;
 }
 
@@ -78,7 +91,7 @@ Json objective_json(const design::Scene& scene, const design::Judgement& judgeme
 }
 
 Json judged_json(const design::Scene& scene, const design::Judged& judged) {
-  return {{"variables", variables_json(scene, judged.variables)},
+  return {{"variables", variables_json(judged)},
           {"objective", objective_json(scene, judged.judgement)},
           {"metrics", metrics_json(judged.judgement)},
           {"constraints", constraints_json(scene, judged.constraints)}};
@@ -168,6 +181,7 @@ Json result_json(const design::Scene& scene, const design::DesignResult& result)
   // an objective of a mirror that breaks constraints is a rank, not a figure
   json["search_value"] =
       result.search.value < design::infeasible_floor ? Json(result.search.value) : Json(nullptr);
+  json["stages"] = stages_json(result.stages);
   json["constraints_sentence"] = design::sentence(result.best.constraints, scene.unit);
   json["start"] = judged_json(scene, result.start);
   json["counts"] = {{"iterations", result.search.iterations},   {"successes", result.search.successes},

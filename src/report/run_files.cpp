@@ -16,7 +16,7 @@ WrittenFiles write_design(const design::Scene& scene, const design::DesignResult
   folder.table("irradiance.csv", irradiance_table(scene, result.target, result.best.judgement));
   folder.table("generatrix.csv",
                generatrix_table(scene, {{"start", result.start.profile}, {"result", result.best.profile}}));
-  folder.table("convergence.csv", convergence_table(scene, result.search));
+  folder.table("convergence.csv", convergence_table(scene, result));
   folder.exchange("reflector.step", result.best.profile, scene.export_options);
   folder.exchange("reflector.igs", result.best.profile, scene.export_options);
   const auto figures = folder.draw_all(design_figures(scene, result));

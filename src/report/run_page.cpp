@@ -138,7 +138,7 @@ std::string design_page(const design::Scene& scene, const design::DesignResult& 
       figure_section("Pictures", figures),
       mirror_section(scene, result.best.profile),
       model_section(scene, result.plan),
-      {"Search", {}, {}, {{"Iterates", convergence_table(scene, result.search)}}, {}},
+      {"Search", {}, {}, {{"Iterates", convergence_table(scene, result)}}, {}},
   };
   return html_page(page);
 }

@@ -20,15 +20,19 @@ std::vector<design::MetricFigure> others(const design::Scene& scene, const desig
   return list;
 }
 
+/// A variable by its name; nothing when the mirror's design vector has no such one.
+Cell variable_of(const design::Judged& judged, const std::string& name) {
+  const auto found = std::find(judged.names.begin(), judged.names.end(), name);
+  if (found == judged.names.end()) return {};
+  return judged.variables[static_cast<std::size_t>(found - judged.names.begin())];
+}
+
 /// A named figure of a run, for the study's table; nothing when the run has no such figure.
 Cell figure(const StudyRow& row, const std::string& name) {
   if (!row.designed && !row.simulated) return {};
   const design::Judged& judged = row.designed ? row.designed->best : row.simulated->mirror;
   const design::Figure& objective = judged.judgement.objective;
-  const auto& variables = row.scene->variables;
-  const auto found =
-      std::find_if(variables.begin(), variables.end(), [&](const auto& v) { return v.name == name; });
-  if (found != variables.end()) return judged.variables[static_cast<std::size_t>(found - variables.begin())];
+  if (const Cell value = variable_of(judged, name); value.index() != 0) return value;
   if (judged.judgement.has_objective) {
     if (name == "rmse" || name == "objective") return objective.value;
     if (name == "noise") return objective.noise;
@@ -97,7 +101,7 @@ Table generatrix_table(const design::Scene& scene,
   return table;
 }
 
-Table convergence_table(const design::Scene& scene, const optim::Outcome& outcome) {
+Table convergence_table(const design::Scene& scene, const design::DesignResult& result) {
   Table table{{{"k", ""},
                {"iteration", ""},
                {"evaluations", ""},
@@ -105,16 +109,19 @@ Table convergence_table(const design::Scene& scene, const optim::Outcome& outcom
                {"move", ""},
                {"value", objective_unit(scene)}},
               {}};
-  for (const auto& variable : scene.variables)
-    table.columns.push_back({variable.name, design::unit_of_variable(variable.name, scene.unit)});
-  for (const optim::Iterate& each : outcome.history) {
+  const std::vector<std::string>& names = result.best.names;
+  for (const std::string& name : names)
+    table.columns.push_back({name, design::unit_of_variable(name, scene.unit)});
+  for (const optim::Iterate& each : result.search.history) {
     std::vector<Cell> row{static_cast<long long>(each.k),
                           static_cast<long long>(each.iteration),
                           static_cast<long long>(each.evaluations),
                           each.step,
                           each.move,
                           each.value};
-    for (double x : each.x) row.emplace_back(x);
+    const bool alike = each.x.size() == names.size();  // before a refinement there were other variables
+    for (std::size_t i = 0; i < names.size(); ++i)
+      alike ? row.emplace_back(each.x[i]) : row.emplace_back(std::monostate{});
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -138,10 +145,11 @@ Table landscape_table(const design::Scene& scene, const design::Landscape& lands
 
 Table summary_table(const design::Scene& scene, const design::DesignResult& result) {
   Table table{{{"figure", ""}, {"unit", ""}, {"start", ""}, {"result", ""}}, {}};
-  for (std::size_t i = 0; i < scene.variables.size(); ++i)
-    table.rows.push_back({scene.variables[i].name,
-                          design::unit_of_variable(scene.variables[i].name, scene.unit),
-                          result.start.variables[i], result.best.variables[i]});
+  const design::Judged &start = result.start, &best = result.best;
+  const bool alike = start.names == best.names;  // not after a refinement
+  for (std::size_t i = 0; i < best.names.size(); ++i)
+    table.rows.push_back({best.names[i], design::unit_of_variable(best.names[i], scene.unit),
+                          alike ? Cell{start.variables[i]} : Cell{}, best.variables[i]});
   const design::Figure &before = result.start.judgement.objective, &after = result.best.judgement.objective;
   const std::string metric = design::objective_name(scene.search.metric), unit = objective_unit(scene);
   table.rows.push_back({metric, unit, before.value, after.value});
@@ -162,10 +170,10 @@ Table summary_table(const design::Scene& scene, const design::DesignResult& resu
 Table simulation_table(const design::Scene& scene, const design::SimulationResult& result) {
   const design::Judgement& judgement = result.mirror.judgement;
   Table table{{{"figure", ""}, {"unit", ""}, {"value", ""}}, {}};
-  for (std::size_t i = 0; i < scene.variables.size(); ++i)
-    table.rows.push_back({scene.variables[i].name,
-                          design::unit_of_variable(scene.variables[i].name, scene.unit),
-                          result.mirror.variables[i]});
+  const design::Judged& mirror = result.mirror;
+  for (std::size_t i = 0; i < mirror.names.size(); ++i)
+    table.rows.push_back(
+        {mirror.names[i], design::unit_of_variable(mirror.names[i], scene.unit), mirror.variables[i]});
   if (judgement.has_objective) {
     const std::string metric = design::objective_name(scene.search.metric), unit = objective_unit(scene);
     table.rows.push_back({metric, unit, judgement.objective.value});

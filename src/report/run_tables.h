@@ -16,7 +16,7 @@ Table generatrix_table(const design::Scene& scene,
                        const std::vector<std::pair<std::string, Profile>>& curves);
 
 /// One row per iterate: k, iteration, evaluations, step, move, value and the variables.
-Table convergence_table(const design::Scene& scene, const optim::Outcome& outcome);
+Table convergence_table(const design::Scene& scene, const design::DesignResult& result);
 
 /// One row per point: the variables and the objective.
 Table landscape_table(const design::Scene& scene, const design::Landscape& landscape);
