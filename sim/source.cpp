@@ -29,10 +29,10 @@ PointSource::PointSource(const Vector3& position_mm, double power_w, double expo
     : position_mm_(position_mm), power_w_(power_w), law_{exponent}, axis_(unit_axis(axis)) {
   check_source(position_mm, power_w, axis);
   if (!(exponent >= 0 && exponent <= greatest_exponent))
-    throw InputError({fmt::format("exponent of {}", exponent), "source",
-                      fmt::format("the exponent of the intensity's cosine lies between 0 and {}",
-                                  greatest_exponent),
-                      "1 is Lambert's law, 0 the same in all directions"});
+    throw InputError(
+        {fmt::format("exponent of {}", exponent), "source",
+         fmt::format("the exponent of the intensity's cosine lies between 0 and {}", greatest_exponent),
+         "1 is Lambert's law, 0 the same in all directions"});
 }
 
 double PointSource::tilt_rad() const { return law_.is_even() ? 0 : tilt_of(axis_); }

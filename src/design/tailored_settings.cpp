@@ -22,9 +22,10 @@ void put(Settings& settings, const std::string& path, double value) {
 Settings tailored_settings(const Scene& scene, bool from_nothing, std::vector<std::string>& notes) {
   const TailoredStart start = from_nothing ? tailored_from_nothing(scene) : tailored_variables(scene);
   Settings settings = scene.settings;
-  if (from_nothing) put_profile(settings, start.profile, where);
+  const bool whole = from_nothing || settings.text("search.free") == "profile";
+  if (whole) put_profile(settings, start.profile, where);
   for (const optim::Variable& variable : scene.variables) {
-    if (from_nothing) break;
+    if (from_nothing || parse_scene_variable(variable.name)) continue;
     const auto component = parse_component(variable.name, start.profile.points().size());
     // A value on its bound must not leave it by a rounding.
     put(settings, "variables." + variable.name + ".start",
@@ -36,7 +37,8 @@ Settings tailored_settings(const Scene& scene, bool from_nothing, std::vector<st
   settings.set({"start", "\"profile\"", where});
   settings.remove("tailored.vertex");
   // A mirror made from nothing is done unless more is asked for.
-  if (from_nothing && scene.variables.empty()) settings.set({"search.method", "\"none\"", where});
+  if (from_nothing && scene.variables.empty() && settings.text("search.free") == "listed")
+    settings.set({"search.method", "\"none\"", where});
   notes.insert(notes.end(), start.notes.begin(), start.notes.end());
   return settings;
 }

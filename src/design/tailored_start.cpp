@@ -11,8 +11,10 @@
 
 #include "base/units.h"
 #include "design/compensation.h"
+#include "design/design_space.h"
 #include "design/free_profile.h"
 #include "design/profile_fit.h"
+#include "design/run.h"
 #include "design/tailoring.h"
 #include "design/tailoring_task.h"
 #include "design/variables.h"
@@ -27,9 +29,24 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-ProfileVariables free_variables(std::shared_ptr<const FreeProfile> family) {
+ProfileVariables variables_of(std::shared_ptr<const FreeProfile> family) {
   return {family->variables(), [family](std::span<const double> x) { return family->at(x); },
           [family](const Profile& profile) { return family->chain(profile); }};
+}
+
+/// All of the scene's generatrix, from where its listed variables start it.
+ProfileVariables whole_profile(const Scene& scene) {
+  const Profile start = start_profile(scene);
+  SearchSpec search;
+  search.free = Freedom::profile;
+  search.free_profile = package_about(start, scene.unit);
+  search.free_profile.hold_vertex = scene.settings.boolean("search.hold_vertex").value_or(false);
+  std::vector<optim::Variable> shape_only;
+  for (const optim::Variable& each : scene.variables)
+    if (!parse_scene_variable(each.name)) shape_only.push_back(each);
+  ProfileVariables family = variables_of(std::make_shared<FreeProfile>(start, search.free_profile));
+  family.variables = free_variables(start, search, shape_only);
+  return family;
 }
 
 /// The scene's listed variables; weights by their logarithms, lengths in mm.
@@ -39,6 +56,7 @@ ProfileVariables listed_variables(const Scene& scene) {
   std::vector<Component> components;
   ProfileVariables family;
   for (optim::Variable variable : scene.variables) {
+    if (parse_scene_variable(variable.name)) continue;  // the light is balanced for the scene as written
     names.push_back(variable.name);
     components.push_back(*parse_component(variable.name, scene.profile.points().size()));
     const bool weight = components.back().coordinate == 'w';
@@ -121,7 +139,7 @@ class MirrorFactory {
     FreeProfileOptions options;
     options.hold_vertex = true;
     const ProfileVariables family =
-        free_variables(std::make_shared<FreeProfile>(Profile(degree, knots, control), options));
+        variables_of(std::make_shared<FreeProfile>(Profile(degree, knots, control), options));
     TailoringOptions search;
     search.most_restarts = 0;  // the fit is where a search should begin
     search.value_tolerance = 1e-4;
@@ -242,7 +260,11 @@ TailoredStart tailored_variables(const Scene& scene) {
   const auto begin = Clock::now();
   const double apex = scene.profile.points().front().z_mm - scene.source.position_mm.z();
   TailoringTask task = tailoring_task(scene, apex < 0 ? -1 : 1);
-  const ProfileVariables family = listed_variables(scene);
+  const bool whole = scene.settings.text("search.free") == "profile";
+  const ProfileVariables family = whole ? whole_profile(scene) : listed_variables(scene);
+  if (family.variables.empty())
+    throw scene.settings.error("start", "there is nothing to tailor", "no variable moves the mirror's shape",
+                               "[variables.w1], or search.free = \"profile\", or no reflector.points");
   std::optional<Tailored> best;
   RayMap kind{};
   long evaluations = 0;

@@ -22,7 +22,8 @@ struct TailoredStart {
   std::vector<std::string> notes;  ///< what a user should know, in sentences
 };
 
-/// Tailors the scene's listed variables, from the scene's profile with their starts.
+/// Tailors the scene's listed variables, or with `search.free` "profile" all of the generatrix, from the
+/// scene's profile with their starts.
 /// @fails InputError where the target cannot be reached (see tailored_from_nothing)
 TailoredStart tailored_variables(const Scene& scene);
 

@@ -178,7 +178,7 @@ TEST_CASE("all points stay in the package, and a base that does not is refused",
   CHECK_THROWS_WITH(FreeProfile(paraboloid, options), Catch::Contains("r2 = 100"));
 }
 
-TEST_CASE("unclamped knots are refused; a base that crosses the axis on the way is nothing",
+TEST_CASE("unclamped knots are refused, and a base that crosses the axis on the way is nothing",
           "[free_profile]") {
   CHECK_THROWS_AS(FreeProfile(Profile(2, {0, 1, 2, 3, 4, 5}, {{0, 10, 1}, {5, 10, 1}, {10, 5, 1}}), {}),
                   InputError);

@@ -43,7 +43,7 @@ TEST_CASE("metrics of four samples, by hand") {
   CHECK(value(Metric::efficiency) == Approx((3 + 1) * 1e-6 * 25 / 1e-3));
 }
 
-TEST_CASE("weights count in errors and means; a sample of weight 0 is not there") {
+TEST_CASE("weights count in errors and means, and a sample of weight 0 is not there") {
   const Scene spec = scene();
   const auto value = [&](Metric metric, std::vector<double> weights) {
     return *metric_value(metric, spec, field, target(std::move(weights)));
@@ -105,5 +105,6 @@ TEST_CASE("flux is a share of the power that the design has, where the power is 
   const double once = value_at(spec, sim::Rung::tubes, wanted, family, std::vector<double>{0.03});
   const double double_power = value_at(spec, sim::Rung::tubes, wanted, family, std::vector<double>{0.06});
   CHECK(once > 0.1);
-  CHECK(double_power == Approx(once).epsilon(1e-12));
+  // Ray tubes are asked for 2.5e-7 of all light, of the power as written.
+  CHECK(double_power == Approx(once).epsilon(1e-6));
 }
