@@ -27,7 +27,7 @@ struct TailoringOptions {
   std::size_t rays_a_point = 8;   ///< of the control points
   long most_evaluations = 60;     ///< of one start
   int most_restarts = 20;         ///< from other places in the box, while the miss is above `reach_rad`
-  double reach_rad = 1e-10;       ///< a miss that needs no further start
+  double reach_rad = 1e-8;        ///< a miss that needs no further start
   double value_tolerance = 1e-8;  ///< relative change of the squared miss that ends a start
 };
 
