@@ -3,21 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/ordered_sum.h"
 #include "base/units.h"
+#include "design/image_blur.h"
 #include "design/stage.h"
 #include "sim/rings.h"
 
 namespace catoptric::design {
 namespace {
 
-constexpr std::size_t nodes = 96;  ///< radii at which light is compared, even in area
-constexpr int rounds = 8;          ///< of asking anew, for each size of the field
-constexpr double damping = 0.7;    ///< whole corrections overshoot where images overlap
-constexpr std::uint64_t photons = 65'536;
+constexpr std::size_t nodes = 96;           ///< radii at which light is compared, even in area
+constexpr std::uint64_t photons = 262'144;  ///< in all sets
 constexpr std::uint64_t sets = 4;
+constexpr std::uint64_t stream = std::uint64_t{1} << 35;  ///< nobody else's photons
+/// Wanted light is sharpened by so many rounds before a mirror is made for it: what is too sharp for a spline
+/// of few points, or for images that are not alike, shows in the real light.
+constexpr int sharpenings[] = {3, 10, 30, 100, 300};
+constexpr int rounds = 5;  ///< of correction by the real light, after each sharpening
 
-/// Wanted light by a table over the radius, straight between its entries.
+/// Straight between a table's entries, level beyond them.
 class Table {
  public:
   Table(std::vector<double> radii_mm, std::vector<double> values)
@@ -36,20 +39,36 @@ class Table {
   std::vector<double> radii_, values_;
 };
 
-/// Light of the real source by way of a mirror, W/mm^2.
+std::vector<double> radii_over(double reach_mm) {
+  std::vector<double> radii;
+  for (std::size_t i = 0; i < nodes; ++i)
+    radii.push_back(reach_mm * std::sqrt((static_cast<double>(i) + 0.5) / nodes));
+  return radii;
+}
+
+double root_mean_square(const Eigen::VectorXd& values) {
+  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+}
+
+/// Light of the real source by way of a mirror, W/mm^2, and its noise.
 struct RealLight {
-  std::vector<double> reflected, noise;
+  Eigen::VectorXd reflected, noise;
 };
 
 class Feedback {
  public:
   Feedback(const Scene& scene, const TailoringTask& task, double image_mm)
-      : scene_(scene), task_(task), image_mm_(image_mm) {
-    const double reach_mm = scene.near_field.half_width_mm();
-    for (std::size_t i = 0; i < nodes; ++i)
-      radii_.push_back(reach_mm * std::sqrt((static_cast<double>(i) + 0.5) / nodes));
-    for (const double radius_mm : radii_)
-      wanted_.push_back(radius_mm <= task.wanted.end_mm ? task.wanted.w_per_mm2(radius_mm) : 0.0);
+      : scene_(scene),
+        radii_(radii_over(scene.near_field.half_width_mm())),
+        blur_(radii_, image_mm),
+        wanted_(static_cast<Eigen::Index>(nodes)) {
+    Eigen::VectorXd total(static_cast<Eigen::Index>(nodes));
+    for (std::size_t i = 0; i < nodes; ++i) {
+      const bool within = radii_[i] <= task.wanted.end_mm;
+      wanted_[static_cast<Eigen::Index>(i)] = within ? std::max(0.0, task.wanted.w_per_mm2(radii_[i])) : 0.0;
+      total[static_cast<Eigen::Index>(i)] = task.total_w_per_mm2(radii_[i]);
+    }
+    total_rms_ = root_mean_square(total);
   }
 
   RealLight light_of(const Profile& profile) const {
@@ -58,61 +77,49 @@ class Feedback {
     options.photons.photons = photons;
     options.photons.sampler = sim::Sampler::sobol;
     options.photons.seed = scene_.seed;
-    options.photons.stream = compensation_stream;
+    options.photons.stream = stream;
     options.replicates = sets;
-    sim::RingsField field = sim::rings_field(stage.scene, radii_, options);
-    return {std::move(field.debiased), std::move(field.debiased_noise)};
+    const sim::RingsField field = sim::rings_field(stage.scene, radii_, options);
+    const auto copied = [](const std::vector<double>& values) {
+      return Eigen::VectorXd(
+          Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(nodes)));
+    };
+    return {copied(field.debiased), copied(field.debiased_noise)};
   }
 
-  /// Relative root mean square over the area, of the whole light.
   double error_rel(const RealLight& light) const {
-    double off = 0, all = 0;
-    for (std::size_t i = 0; i < nodes; ++i) {
-      const double wanted = std::max(0.0, wanted_[i]);
-      off += (light.reflected[i] - wanted) * (light.reflected[i] - wanted);
-      all += task_.total_w_per_mm2(radii_[i]) * task_.total_w_per_mm2(radii_[i]);
-    }
-    return std::sqrt(off / all);
+    return root_mean_square(light.reflected - wanted_) / total_rms_;
+  }
+  double noise_rel(const RealLight& light) const { return root_mean_square(light.noise) / total_rms_; }
+  double limit_rel() const { return blur_.limit(wanted_) / total_rms_; }
+
+  /// Where images must be put, by the model of images that are all alike.
+  Eigen::VectorXd sharpened(int times) const {
+    return blur_.improved(wanted_, blur_.even_powers(wanted_), times);
+  }
+  Eigen::VectorXd corrected(Eigen::VectorXd powers, const RealLight& light) const {
+    powers.array() *= blur_.factors(wanted_, light.reflected).array();
+    return powers;
   }
 
-  double noise_rel(const RealLight& light) const {
-    double noise = 0, all = 0;
-    for (std::size_t i = 0; i < nodes; ++i) {
-      noise += light.noise[i] * light.noise[i];
-      all += task_.total_w_per_mm2(radii_[i]) * task_.total_w_per_mm2(radii_[i]);
-    }
-    return std::sqrt(noise / all);
-  }
-
-  /// The light to ask for next, from what came of the last.
-  WantedLight asked_next(const WantedLight& last, const RealLight& light) const {
-    std::vector<double> asked(nodes);
-    for (std::size_t i = 0; i < nodes; ++i) {
-      const double had = std::max(0.0, last.w_per_mm2(radii_[i]));
-      asked[i] = had * std::clamp(std::pow(ratio_near(radii_[i], light), damping), 0.5, 2.0);
-    }
-    return {Table(radii_, std::move(asked)), last.breaks_mm, last.end_mm};
+  /// The powers as light that a point source's mirror can be asked for.
+  WantedLight asked(const Eigen::VectorXd& powers) const {
+    constexpr double faint = 1e-3;  // of the brightest: not worth a piece of mirror
+    std::vector<double> densities = blur_.densities(powers);
+    const double brightest = *std::max_element(densities.begin(), densities.end());
+    std::size_t last = densities.size();
+    while (last > 1 && densities[last - 1] < faint * brightest) --last;
+    const double width_mm = blur_.ring_radii_mm().front() * 2;
+    const double end_mm = blur_.ring_radii_mm()[last - 1] + 0.5 * width_mm;
+    return {Table(blur_.ring_radii_mm(), std::move(densities)), {}, end_mm};
   }
 
  private:
-  /// Wanted over had, both averaged over an image of the source.
-  double ratio_near(double radius_mm, const RealLight& light) const {
-    double wanted = 0, had = 0;
-    for (std::size_t i = 0; i < nodes; ++i) {
-      const double t = (radii_[i] - radius_mm) / (0.5 * image_mm_);
-      const double weight = radii_[i] == radius_mm ? 1.0 : t * t < 1 ? 1 - t * t : 0.0;
-      wanted += weight * std::max(0.0, wanted_[i]);
-      had += weight * light.reflected[i];
-    }
-    return had > 0 && wanted > 0 ? wanted / had : 1.0;
-  }
-
-  static constexpr std::uint64_t compensation_stream = (std::uint64_t{1} << 35);  ///< nobody else's
-
   const Scene& scene_;
-  const TailoringTask& task_;
-  double image_mm_;
-  std::vector<double> radii_, wanted_;
+  std::vector<double> radii_;
+  ImageBlur blur_;
+  Eigen::VectorXd wanted_;  ///< of the mirror
+  double total_rms_ = 0;    ///< of the target, direct light included
 };
 
 }  // namespace
@@ -121,29 +128,22 @@ Compensated compensate(const Scene& scene, const TailoringTask& task, const Prof
                        const MirrorMaker& make) {
   const Feedback feedback(scene, task, image_mm);
   const RealLight at_first = feedback.light_of(first);
-  Compensated best{first, feedback.error_rel(at_first), 0, 0, 1};
+  Compensated best{first, feedback.error_rel(at_first), 0, 0, feedback.limit_rel(), 1};
   best.error_rel = best.first_error_rel;
   best.noise_rel = feedback.noise_rel(at_first);
-  // Images spill over the edge: a larger or smaller field may serve the target better.
-  for (const double wider : {0.0, 0.5, 1.0, -0.5}) {
-    const double end_mm = task.wanted.end_mm + wider * image_mm;
-    if (!(end_mm > image_mm)) continue;
-    WantedLight asked{[light = task.wanted.w_per_mm2, end = task.wanted.end_mm](double radius_mm) {
-                        return light(std::min(radius_mm, end * (1 - 1e-9)));
-                      },
-                      task.wanted.breaks_mm, end_mm};
+  for (const int times : sharpenings) {
+    Eigen::VectorXd powers = feedback.sharpened(times);
     for (int round = 0; round < rounds; ++round) {
-      const auto profile = make(asked);
+      const auto profile = make(feedback.asked(powers));
       if (!profile) break;
       const RealLight light = feedback.light_of(*profile);
       ++best.mirrors;
-      const double error = feedback.error_rel(light);
-      if (error < best.error_rel) {
+      if (const double error = feedback.error_rel(light); error < best.error_rel) {
         best.error_rel = error;
         best.noise_rel = feedback.noise_rel(light);
         best.profile = *profile;
       }
-      asked = feedback.asked_next(asked, light);
+      powers = feedback.corrected(std::move(powers), light);
     }
   }
   return best;

@@ -219,9 +219,10 @@ void serve_extended_source(const Scene& scene, TailoringTask& task, Made& made) 
       "of "
       "the light is sharper than the smallest of them. A point source's mirror is off by {:.2g} %, the best "
       "of "
-      "{} compensated ones by {:.2g} % (noise {:.1g} %)",
+      "{} compensated ones by {:.2g} % (noise {:.1g} %); light made of such images comes to {:.2g} % at best",
       scene.to_scene_unit(images.least_mm), scene.to_scene_unit(images.most_mm), symbol(scene.unit),
-      100 * found.first_error_rel, found.mirrors, 100 * found.error_rel, 100 * found.noise_rel));
+      100 * found.first_error_rel, found.mirrors, 100 * found.error_rel, 100 * found.noise_rel,
+      100 * found.limit_rel));
   made.tailored.profile = std::move(found.profile);
 }
 
