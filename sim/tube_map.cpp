@@ -46,7 +46,7 @@ class TubeMaker {
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
       start(breaks[i] + step_inside_rad, breaks[i + 1] - step_inside_rad);
     while (!open_.empty() && map_.rays + rays_a_division <= goal_.most_rays &&
-           interactions_ <= most_interactions()) {
+           meetings_ <= goal_.most_meetings) {
       std::pop_heap(open_.begin(), open_.end(), smaller);
       const Interval interval = open_.back();
       open_.pop_back();
@@ -67,17 +67,11 @@ class TubeMaker {
   /// that a smooth mirror costs no more than it needs.
   static constexpr std::size_t first_intervals = 4;
 
-  /// In a cavity a ray may take as long as a thousand elsewhere; then rays are not what must be counted.
-  long most_interactions() const {
-    constexpr long a_ray = 8;  // of light that leaves after some bounces
-    return a_ray * goal_.most_rays;
-  }
-
   std::size_t trace(double theta_rad) {
     const std::size_t first = landings_.size();
     const Dropped dropped = tracer_.trace(theta_rad, landings_);
     ++map_.rays;
-    interactions_ += dropped.interactions;
+    meetings_ += dropped.interactions;
     nodes_.push_back({theta_rad, first, landings_.size() - first, dropped});
     return nodes_.size() - 1;
   }
@@ -339,7 +333,7 @@ class TubeMaker {
   AxialLight light_;
   TubeGoal goal_;
   double h_;
-  long interactions_ = 0;  ///< of all rays with the mirror
+  long meetings_ = 0;  ///< of all rays with the mirror
   TubeMap map_;
   std::vector<Landing> landings_;
   std::vector<Node> nodes_;

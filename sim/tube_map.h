@@ -48,8 +48,8 @@ struct TubeGoal {
   double r_max_mm;             ///< largest radius asked for
   double kernel_radius_mm;     ///< 0: the pointwise field
   double tolerance_w_per_mm2;  ///< of the smoothed field
-  int most_rays;               ///< fewer by up to 13 may be used, since rays come several at a time; fewer
-                               ///< too where they meet the mirror more than eight times on average
+  int most_rays;               ///< fewer by up to 13 may be used, since rays come several at a time
+  long most_meetings;          ///< of all rays with the mirror: in a cavity one ray may cost a thousand
 };
 
 /// The tubes between rays from a point on the axis, refined where the error is.

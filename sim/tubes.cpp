@@ -81,9 +81,9 @@ TubeMap map_for(const TubeTracer& tracer, const PointSource& source, const Profi
       std::max(radii.distinct_mm.back(), Tolerance::for_scale(profile.diagonal_mm()).lift_mm);
   // Rays may use most of the tolerance; rings and interpolation are cheap and get the rest.
   const AxialLight light = AxialLight::of(source);
-  return make_tubes(
-      tracer, light.lit(emission_breaks(profile, source.position_mm().z())), light,
-      {r_max, options.kernel_radius_mm, rays_share * options.tolerance_w_per_mm2, options.most_rays});
+  return make_tubes(tracer, light.lit(emission_breaks(profile, source.position_mm().z())), light,
+                    {r_max, options.kernel_radius_mm, rays_share * options.tolerance_w_per_mm2,
+                     options.most_rays, options.most_meetings});
 }
 
 TubesField tubes_field(const PointSource& source, const Profile& profile, const Material& mirror,

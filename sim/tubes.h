@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@ struct TubesOptions {
   double kernel_radius_mm = 0;         ///< of the Silverman kernel; 0: the pointwise field
   double tolerance_w_per_mm2 = 1e-12;  ///< of the smoothed field: 1e-6 W/m^2
   int most_rays = 100'000;
+  long most_meetings = std::numeric_limits<long>::max();  ///< of all rays with the mirror
   int most_interactions = 1000;
   double pointwise_tolerance_w_per_mm2 = 0;  ///< of the pointwise field; 0 has every branch polished by rays
 };

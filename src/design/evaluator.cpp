@@ -20,6 +20,8 @@ constexpr double tubes_tolerance_rel = 2.5e-7;
 constexpr double tubes_accepted = 1000;
 /// Where paths are so many that this does not suffice, photons are cheaper.
 constexpr int most_tube_rays = 20'000;
+/// In a cavity one ray may meet the mirror a thousand times, so rays alone would allow seconds.
+constexpr long most_tube_meetings = 8L * most_tube_rays;
 
 sim::PhotonOptions photon_options(const Scene& scene, std::uint64_t stream) {
   sim::PhotonOptions options = scene.model.photons;
@@ -103,6 +105,7 @@ sim::TubesOptions tubes_options(const Scene& scene, double kernel_radius_mm) {
   options.most_interactions = scene.model.photons.most_interactions;
   options.tolerance_w_per_mm2 = tubes_tolerance_rel * scene.source.power_w / scene.near_field.area_mm2();
   options.most_rays = most_tube_rays;
+  options.most_meetings = most_tube_meetings;
   return options;
 }
 
