@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "cli/scene_run.h"
 #include "design/csv_table.h"
@@ -10,9 +11,9 @@ namespace catoptric::cli {
 namespace {
 
 /// The landscape's variables of every iterate in a convergence.csv; its column of moves is text and left out.
-report::SearchPath read_path(const std::filesystem::path& file, const std::vector<std::string>& names) {
+design::SearchPath read_path(const std::filesystem::path& file, const std::vector<std::string>& names) {
   const design::CsvTable table = design::read_csv_table(file, {"move"});
-  report::SearchPath path{file.parent_path().filename().string(), {}};
+  design::SearchPath path{file.parent_path().filename().string(), {}, {}, {}};
   for (std::size_t row = 0; row < table.lines.size(); ++row) {
     std::vector<double> point;
     for (const std::string& name : names) point.push_back(design::column(table, name, file.string())[row]);
@@ -26,11 +27,12 @@ report::SearchPath read_path(const std::filesystem::path& file, const std::vecto
 ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions& more) {
   SceneRun run(options);
   const design::Scene& scene = run.scene;
-  std::vector<report::SearchPath> paths;
+  std::vector<design::SearchPath> read;
   if (scene.landscape)
-    for (const auto& file : more.paths) paths.push_back(read_path(file, scene.landscape->variables));
-  const design::Landscape result = design::run_landscape(scene, run.control);
-  const auto files = report::write_landscape(scene, result, paths, run.out);
+    for (const auto& file : more.paths) read.push_back(read_path(file, scene.landscape->variables));
+  design::Landscape result = design::run_landscape(scene, run.control);
+  std::move(read.begin(), read.end(), std::back_inserter(result.paths));
+  const auto files = report::write_landscape(scene, result, run.out);
   run.line.finish();
   if (options.quiet) return ExitCode::done;
   const auto best =
@@ -42,6 +44,8 @@ ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions&
              name(scene.search.metric), *best, result.names[0], result.axes[0][at / columns]);
   if (result.axes.size() > 1) fmt::print(", {} = {:.6g}", result.names[1], result.axes[1][at % columns]);
   fmt::print("\n");
+  for (const design::SearchPath& path : result.paths)
+    if (!path.ending.empty()) fmt::print("{}\n", path.ending);
   run.print_files(files);
   return ExitCode::done;
 }

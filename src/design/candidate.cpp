@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/contract.h"
+#include "design/variables.h"
 #include "sim/disc_source.h"
 
 namespace catoptric::design {
@@ -72,6 +73,15 @@ std::string scene_variable_names() {
 bool is_length(SceneVariable variable) {
   return variable == SceneVariable::source_x || variable == SceneVariable::source_y ||
          variable == SceneVariable::source_z;
+}
+
+bool is_variable(const std::string& name, const Candidate& base) {
+  return parse_scene_variable(name) || parse_component(name, base.profile.points().size());
+}
+
+std::string variables_rule(const Candidate& base) {
+  return fmt::format("variables are r0, z0, w0 ... r{0}, z{0}, w{0}, {1}", base.profile.points().size() - 1,
+                     scene_variable_names());
 }
 
 std::string unit_of_variable(std::string_view name, LengthUnit unit) {

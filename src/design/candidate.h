@@ -55,6 +55,10 @@ std::string scene_variable_names();
 /// Whether it is a length, in the scene's unit.
 bool is_length(SceneVariable variable);
 
+/// Whether it names a component of the profile or a scene variable; variables_rule() says which there are.
+bool is_variable(const std::string& name, const Candidate& base);
+std::string variables_rule(const Candidate& base);
+
 /// The unit a variable of any kind is written in; empty for plain numbers.
 std::string unit_of_variable(std::string_view name, LengthUnit unit);
 

@@ -136,6 +136,8 @@ const std::vector<Key>& scene_table() {
       {.path = "landscape.upper", .type = numbers, .meaning = "greatest value of each"},
       {.path = "landscape.steps", .type = numbers, .least = 2, .greatest = 10000, .meaning = "how many values of each"},
       {.path = "landscape.greatest", .type = number, .least = 0, .least_excluded = true, .meaning = "objective above which the drawn surface is cut off; the table keeps all"},
+      {.path = "landscape.paths", .type = boolean, .standard = "false", .meaning = "true: the scene's search is run from its start, and its path drawn over the contours"},
+      {.path = "landscape.starts", .type = points, .standard = "[]", .meaning = "further starts of such searches: values of the landscape's two variables"},
 
       {.path = "tradeoff.seconds", .type = number, .least = 0, .greatest = 1e6, .least_excluded = true, .standard = "1.0", .meaning = "settings whose evaluation takes longer are left out, s"},
       {.path = "tradeoff.seeds", .type = integer, .least = 1, .greatest = 1000, .standard = "3", .meaning = "independent repetitions of every setting that uses random numbers"},

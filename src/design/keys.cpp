@@ -106,7 +106,7 @@ std::string rule(const Key& key) {
       text = key.count ? fmt::format("a list of {} numbers", key.count) : "a list of numbers";
       break;
     case KeyType::points:
-      text = "a list of points [r, z]";
+      text = "a list of pairs [a, b]";
       break;
   }
   if (key.least != -unbounded && std::abs(key.least) != farthest)

@@ -10,6 +10,7 @@
 #include "design/evaluator.h"
 #include "design/metrics.h"
 #include "design/search.h"
+#include "design/search_paths.h"
 #include "design/stage.h"
 #include "design/variables.h"
 
@@ -150,7 +151,7 @@ Landscape run_landscape(const Scene& scene, const RunControl& control) {
                                "landscape.variables = [\"w1\", \"r2\"] with lower, upper and steps");
   const Stopwatch watch;
   const LandscapeSpec& spec = *scene.landscape;
-  Landscape result{spec.variables, {}, {}, 0};
+  Landscape result{spec.variables, {}, {}, {}, 0};
   for (std::size_t i = 0; i < spec.variables.size(); ++i) {
     std::vector<double> axis;
     for (int j = 0; j < spec.steps[i]; ++j)
@@ -159,6 +160,7 @@ Landscape run_landscape(const Scene& scene, const RunControl& control) {
   }
   const Target target = make_target(scene);
   require_metric(scene, target);
+  if (spec.paths) result.paths = search_paths(scene, target, control);
   // Everything that is not drawn stays at its start.
   const Candidate start = start_candidate(scene);
   const SceneFamily family(start, spec.variables, scene.unit);

@@ -73,11 +73,21 @@ struct SimulationResult {
 };
 SimulationResult run_simulation(const Scene& scene, const RunControl& control);
 
+/// The way of a search over a landscape.
+struct SearchPath {
+  std::string label;
+  std::vector<std::vector<double>> points;  ///< in the landscape's variables: the start, then what was better
+  std::vector<double> values = {};  ///< objective at each, as the search had it; NaN where constraints are
+                                    ///< broken; empty where it is not known
+  std::string ending = {};          ///< how the search ended, in words
+};
+
 /// The objective over one or two variables, row by row: the second variable runs fastest.
 struct Landscape {
   std::vector<std::string> names;
   std::vector<std::vector<double>> axes;  ///< values of each variable
   std::vector<double> objective;          ///< NaN where no mirror can be built or constraints are broken
+  std::vector<SearchPath> paths;          ///< where the scene asks for them
   double seconds = 0;
 };
 Landscape run_landscape(const Scene& scene, const RunControl& control);

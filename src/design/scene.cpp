@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "design/constraint_settings.h"
 #include "design/design_space.h"
+#include "design/landscape_settings.h"
 #include "design/refinement.h"
 #include "design/scene_defaults.h"
 #include "design/source_settings.h"
@@ -183,15 +184,6 @@ void set_free(const Settings& settings, SearchSpec& spec, Profile& base,
   }
 }
 
-bool is_variable(const std::string& name, const Candidate& base) {
-  return parse_scene_variable(name) || parse_component(name, base.profile.points().size());
-}
-
-std::string variables_rule(const Candidate& base) {
-  return fmt::format("variables are r0, z0, w0 ... r{0}, z{0}, w{0}, {1}", base.profile.points().size() - 1,
-                     scene_variable_names());
-}
-
 double start_of(const std::string& name, const Candidate& base, LengthUnit unit) {
   if (const auto beside = parse_scene_variable(name)) return scene_value(base, *beside, unit);
   return component_value(base.profile, *parse_component(name, base.profile.points().size()), unit);
@@ -255,41 +247,6 @@ std::vector<optim::Variable> variables(Settings& settings, const Candidate& base
   return list;
 }
 
-std::optional<LandscapeSpec> landscape(const Settings& settings, const Candidate& base) {
-  const auto names = settings.texts("landscape.variables");
-  if (!names) {
-    for (const char* key : {"landscape.lower", "landscape.upper", "landscape.steps", "landscape.greatest"})
-      if (settings.has(key))
-        throw settings.error(key, "stands alone", "a landscape needs its variables",
-                             "landscape.variables = [\"w1\", \"r2\"]");
-    return std::nullopt;
-  }
-  if (names->empty() || names->size() > 2 || (names->size() == 2 && names->front() == names->back()))
-    throw settings.error("landscape.variables", fmt::format("{} names", names->size()),
-                         "a landscape has one or two different variables", "[\"w1\", \"r2\"]");
-  LandscapeSpec spec{*names, {}, {}, {}, settings.number("landscape.greatest")};
-  for (const std::string& name : *names)
-    if (!is_variable(name, base))
-      throw settings.error("landscape.variables", name + " is no variable of this reflector",
-                           variables_rule(base), "");
-  for (const char* key : {"landscape.lower", "landscape.upper", "landscape.steps"})
-    if (!settings.has(key) || settings.numbers(key)->size() != names->size())
-      throw settings.error(key, "does not fit the variables",
-                           fmt::format("{} numbers are needed", names->size()), "");
-  spec.lower = *settings.numbers("landscape.lower");
-  spec.upper = *settings.numbers("landscape.upper");
-  const Numbers counts = *settings.numbers("landscape.steps");
-  for (double count : counts) {
-    if (count != std::floor(count)) throw settings.error("landscape.steps", "is no whole number", "", "41");
-    spec.steps.push_back(static_cast<int>(count));
-  }
-  for (std::size_t i = 0; i < names->size(); ++i)
-    if (!(spec.lower[i] < spec.upper[i]))
-      throw settings.error("landscape.upper", "the bounds leave no room", "lower must be less than upper",
-                           "swap them");
-  return spec;
-}
-
 TradeoffSpec tradeoff(const Settings& settings) {
   return {*settings.number("tradeoff.seconds"), static_cast<int>(*settings.integer("tradeoff.seeds")),
           static_cast<std::uint64_t>(*settings.integer("tradeoff.most_photons")),
@@ -338,7 +295,7 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
   SearchSpec sought = search(settings, unit_mm);
   if (settings.text("start") != "tailored")  // that is for listed variables, and comes first
     set_free(settings, sought, base, decision, unit);
-  std::optional<LandscapeSpec> drawn = landscape(settings, written);
+  std::optional<LandscapeSpec> drawn = landscape_settings(settings, written, decision);
   const Constraints bounds = read_constraints(settings, unit_mm, source.position_mm, field);
   Scene scene{.settings = {},
               .title = *settings.text("title"),

@@ -82,7 +82,9 @@ struct LandscapeSpec {
   std::vector<std::string> variables;
   std::vector<double> lower, upper;
   std::vector<int> steps;
-  std::optional<double> greatest;  ///< drawn surfaces are cut off there
+  std::optional<double> greatest;                ///< drawn surfaces are cut off there
+  bool paths = false;                            ///< the search's path is drawn
+  std::vector<std::vector<double>> starts = {};  ///< more starts, in the landscape's variables
 };
 
 /// How far `tradeoff` goes.

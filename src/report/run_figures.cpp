@@ -230,8 +230,7 @@ std::vector<NamedFigure> simulation_figures(const design::Scene& scene,
   return figures;
 }
 
-std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const design::Landscape& landscape,
-                                           const std::vector<SearchPath>& paths) {
+std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const design::Landscape& landscape) {
   const std::string x_label = variable_label(scene, landscape.names[0]);
   if (landscape.axes.size() == 1) {
     LineFigure figure{"Objective",
@@ -239,6 +238,14 @@ std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const des
                       metric_label(scene),
                       {{"objective", landscape.axes[0], landscape.objective, CurveRole::obtained}},
                       {}};
+    for (const design::SearchPath& path : landscape.paths) {
+      if (path.values.empty()) continue;  // nothing says how high it lies
+      figure.marks.push_back({"", path.points.front()[0], path.values.front(), MarkKind::start});
+      figure.marks.push_back({"", path.points.back()[0], path.values.back(), MarkKind::end});
+      Curve curve{path.label, {}, path.values};
+      for (const auto& point : path.points) curve.x.push_back(point[0]);
+      figure.curves.push_back(std::move(curve));
+    }
     return {{"landscape", "Objective over one variable", line_script(figure)}};
   }
   LandscapeFigure figure{"Objective",
@@ -252,7 +259,7 @@ std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const des
   for (std::size_t j = 0; j < landscape.axes[1].size(); ++j)
     for (std::size_t i = 0; i < landscape.axes[0].size(); ++i)
       figure.objective.value.push_back(landscape.objective[i * landscape.axes[1].size() + j]);
-  for (const SearchPath& path : paths) {
+  for (const design::SearchPath& path : landscape.paths) {
     Curve curve{path.label, {}, {}};
     for (const auto& point : path.points) {
       curve.x.push_back(point[0]);

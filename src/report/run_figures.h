@@ -24,7 +24,6 @@ std::vector<NamedFigure> simulation_figures(const design::Scene& scene,
                                             const design::SimulationResult& result);
 
 /// Contours with search paths, and the surface from three sides; a line for one variable.
-std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const design::Landscape& landscape,
-                                           const std::vector<SearchPath>& paths);
+std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const design::Landscape& landscape);
 
 }  // namespace catoptric::report

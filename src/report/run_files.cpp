@@ -37,10 +37,11 @@ WrittenFiles write_simulation(const design::Scene& scene, const design::Simulati
 }
 
 WrittenFiles write_landscape(const design::Scene& scene, const design::Landscape& landscape,
-                             const std::vector<SearchPath>& paths, const std::filesystem::path& path) {
+                             const std::filesystem::path& path) {
   RunFolder folder(path);
   folder.table("landscape.csv", landscape_table(scene, landscape));
-  folder.draw_all(landscape_figures(scene, landscape, paths));
+  if (!landscape.paths.empty()) folder.table("paths.csv", paths_table(scene, landscape));
+  folder.draw_all(landscape_figures(scene, landscape));
   return folder.take();
 }
 

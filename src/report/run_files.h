@@ -25,15 +25,9 @@ WrittenFiles write_design(const design::Scene& scene, const design::DesignResult
 WrittenFiles write_simulation(const design::Scene& scene, const design::SimulationResult& result,
                               const std::filesystem::path& folder);
 
-/// A search path to draw over a landscape's contours.
-struct SearchPath {
-  std::string label;
-  std::vector<std::vector<double>> points;  ///< in the landscape's variables
-};
-
-/// `landscape.csv`, contour and surface plots.
+/// `landscape.csv`, `paths.csv` where there are paths, contour and surface plots.
 WrittenFiles write_landscape(const design::Scene& scene, const design::Landscape& landscape,
-                             const std::vector<SearchPath>& paths, const std::filesystem::path& folder);
+                             const std::filesystem::path& folder);
 
 /// `study.json` (a list of results), `study.csv`, `report.html`.
 WrittenFiles write_study(const design::Study& study, const std::vector<StudyRow>& rows, double seconds,

@@ -143,6 +143,21 @@ Table landscape_table(const design::Scene& scene, const design::Landscape& lands
   return table;
 }
 
+Table paths_table(const design::Scene& scene, const design::Landscape& landscape) {
+  Table table{{{"path", ""}}, {}};
+  for (const std::string& name : landscape.names)
+    table.columns.push_back({name, design::unit_of_variable(name, scene.unit)});
+  table.columns.push_back({"value", objective_unit(scene)});
+  for (const design::SearchPath& path : landscape.paths)
+    for (std::size_t i = 0; i < path.points.size(); ++i) {
+      std::vector<Cell> row{path.label};
+      for (const double x : path.points[i]) row.emplace_back(x);
+      path.values.empty() ? row.emplace_back(std::monostate{}) : row.emplace_back(path.values[i]);
+      table.rows.push_back(std::move(row));
+    }
+  return table;
+}
+
 Table summary_table(const design::Scene& scene, const design::DesignResult& result) {
   Table table{{{"figure", ""}, {"unit", ""}, {"start", ""}, {"result", ""}}, {}};
   const design::Judged &start = result.start, &best = result.best;

@@ -21,6 +21,9 @@ Table convergence_table(const design::Scene& scene, const design::DesignResult& 
 /// One row per point: the variables and the objective.
 Table landscape_table(const design::Scene& scene, const design::Landscape& landscape);
 
+/// One row per point of each search path: path, the variables, value.
+Table paths_table(const design::Scene& scene, const design::Landscape& landscape);
+
 /// Start beside result: variables, objective with noise and bias, all other metrics.
 Table summary_table(const design::Scene& scene, const design::DesignResult& result);
 
