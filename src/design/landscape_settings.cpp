@@ -85,7 +85,8 @@ std::optional<LandscapeSpec> landscape_settings(const Settings& settings, const 
                            fmt::format("{} numbers are needed", names->size()), "");
   spec.lower = *settings.numbers("landscape.lower");
   spec.upper = *settings.numbers("landscape.upper");
-  for (const double count : *settings.numbers("landscape.steps")) {
+  const Numbers counts = *settings.numbers("landscape.steps");
+  for (const double count : counts) {
     if (count != std::floor(count)) throw settings.error("landscape.steps", "is no whole number", "", "41");
     spec.steps.push_back(static_cast<int>(count));
   }
