@@ -75,7 +75,8 @@ SimulationResult run_simulation(const Scene& scene, const RunControl& control);
 
 /// The way of a search over a landscape.
 struct SearchPath {
-  std::string label;
+  std::string name;                         ///< a letter for each start, or that of the run that took it
+  std::string label;                        ///< for a legend
   std::vector<std::vector<double>> points;  ///< in the landscape's variables: the start, then what was better
   std::vector<double> values = {};  ///< objective at each, as the search had it; NaN where constraints are
                                     ///< broken; empty where it is not known

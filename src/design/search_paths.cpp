@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <limits>
+#include <string_view>
 
 #include "base/errors.h"
 #include "design/constraints.h"
@@ -29,13 +30,19 @@ std::vector<double> picked(const std::vector<double>& x, const std::vector<std::
   return point;
 }
 
+/// A, B ... Z, then numbers.
+std::string name_of(std::size_t start) {
+  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
+  return start < letters.size() ? std::string(1, letters[start]) : fmt::format("{}", start + 1);
+}
+
 std::string in_words(const std::vector<double>& point) {
   return fmt::format("({:.4g})", fmt::join(point, ", "));
 }
 
-SearchPath path_of(const Scene& scene, const optim::Outcome& outcome,
+SearchPath path_of(const std::string& name, const Scene& scene, const optim::Outcome& outcome,
                    const std::vector<std::size_t>& places) {
-  SearchPath path;
+  SearchPath path{name, {}, {}, {}, {}};
   for (const optim::Iterate& each : outcome.history) {
     std::vector<double> point = picked(each.x, places);
     if (!path.points.empty() && path.points.back() == point) continue;
@@ -45,10 +52,10 @@ SearchPath path_of(const Scene& scene, const optim::Outcome& outcome,
   }
   const std::string start = in_words(picked(starts(scene.variables), places));
   const std::string end = in_words(picked(outcome.best, places));
-  path.label = start + " to " + end;
+  path.label = name + ": " + start + " to " + end;
   path.ending =
-      fmt::format("from {} to {}: {} {:.4g} after {} evaluations, {}", start, end,
-                  objective_name(scene.search.metric), outcome.value, outcome.evaluations, outcome.sentence);
+      fmt::format("{}, {} {:.4g} after {} evaluations, {}", path.label, objective_name(scene.search.metric),
+                  outcome.value, outcome.evaluations, outcome.sentence);
   return path;
 }
 
@@ -70,8 +77,8 @@ std::vector<SearchPath> search_paths(const Scene& scene, const Target& target, c
   std::vector<Scene> begun{scene};
   for (const auto& start : scene.landscape->starts) begun.push_back(begun_at(scene, start, places));
   std::vector<SearchPath> paths;
-  for (const Scene& each : begun) {
-    paths.push_back(path_of(each, search(each, rung, target, control), places));
+  for (std::size_t i = 0; i < begun.size(); ++i) {
+    paths.push_back(path_of(name_of(i), begun[i], search(begun[i], rung, target, control), places));
     if (control.stopped()) throw Error(ExitCode::interrupted, {"interrupted", "", "", ""});
   }
   return paths;

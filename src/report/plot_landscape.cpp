@@ -84,6 +84,17 @@ GridField shown(const LandscapeFigure& figure, Range range) {
   return field;
 }
 
+/// What the marks stand for, for the key; the minimum's name is written at it.
+std::vector<std::string> mark_legend(const std::vector<Mark>& marks) {
+  std::vector<std::string> entries;
+  for (const auto& [kind, entry] :
+       {std::pair{MarkKind::start, "keyentry with points lc rgb '#000000' pt 7 ps 1.0 title 'start'"},
+        {MarkKind::end, "keyentry with points lc rgb '#000000' pt 5 ps 0.9 title 'end'"}})
+    if (std::any_of(marks.begin(), marks.end(), [&](const Mark& mark) { return mark.kind == kind; }))
+      entries.emplace_back(entry);
+  return entries;
+}
+
 }  // namespace
 
 std::string landscape_contour_script(const LandscapeFigure& figure) {
@@ -91,7 +102,8 @@ std::string landscape_contour_script(const LandscapeFigure& figure) {
   const Range range = value_range(figure);
   std::string script = preamble(figure.title) + axes(figure, range);
   script +=
-      "set key outside below horizontal spacing 1.1\nset xlabel offset 0,0.6\nset tics front out\nunset "
+      "set key outside below horizontal font ',12' samplen 2\nset xlabel offset 0,0.6\nset tics front "
+      "out\nunset "
       "grid\n";
   script += "set object 1 rectangle from graph 0,0 to graph 1,1 behind fc rgb '#dddddd' fs solid noborder\n";
   const GridField field = shown(figure, range);
@@ -119,6 +131,7 @@ std::string landscape_contour_script(const LandscapeFigure& figure) {
   }
   for (const Mark& mark : figure.marks)
     script += mark_label(mark, plot_number(mark.x) + "," + plot_number(mark.y));
+  for (std::string& entry : mark_legend(figure.marks)) parts.push_back(std::move(entry));
   return script + plot_command("plot", parts);
 }
 

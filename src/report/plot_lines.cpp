@@ -73,7 +73,7 @@ std::string line_script(const LineFigure& figure) {
   std::string script = preamble(figure.title) + labels(figure.x_label, figure.y_label);
   script += log_axis('x', figure.x_scale) + log_axis('y', figure.y_scale) + "set autoscale xfix\n";
   constexpr std::size_t few = 4;  // more labels would lie on the lines
-  script += figure.curves.size() > few ? "set key outside below horizontal spacing 1.1\n"
+  script += figure.curves.size() > few ? "set key outside below horizontal font ',12' samplen 2\n"
                                        : "set key top right spacing 1.1\n";
   if (figure.y_scale == AxisScale::linear) script += "set offsets graph 0, graph 0, graph 0.05, graph 0.02\n";
   std::vector<std::string> parts;

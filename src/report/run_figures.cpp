@@ -193,6 +193,18 @@ NamedFigure convergence_figure(const design::Scene& scene, const optim::Outcome&
           convergence_script({"Convergence", metric_label(scene), {curve}})};
 }
 
+/// Where a path begins and ends; paths that begin together share a mark with all their names.
+void add_marks(std::vector<Mark>& marks, const std::string& name, PlanePoint begin, PlanePoint end) {
+  const auto same = std::find_if(marks.begin(), marks.end(), [&](const Mark& mark) {
+    return mark.kind == MarkKind::start && mark.x == begin.x && mark.y == begin.y;
+  });
+  if (same == marks.end())
+    marks.push_back({name, begin.x, begin.y, MarkKind::start});
+  else
+    same->label += ", " + name;
+  marks.push_back({"", end.x, end.y, MarkKind::end});
+}
+
 }  // namespace
 
 std::vector<NamedFigure> design_figures(const design::Scene& scene, const design::DesignResult& result) {
@@ -240,8 +252,8 @@ std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const des
                       {}};
     for (const design::SearchPath& path : landscape.paths) {
       if (path.values.empty()) continue;  // nothing says how high it lies
-      figure.marks.push_back({"", path.points.front()[0], path.values.front(), MarkKind::start});
-      figure.marks.push_back({"", path.points.back()[0], path.values.back(), MarkKind::end});
+      add_marks(figure.marks, path.name, {path.points.front()[0], path.values.front()},
+                {path.points.back()[0], path.values.back()});
       Curve curve{path.label, {}, path.values};
       for (const auto& point : path.points) curve.x.push_back(point[0]);
       figure.curves.push_back(std::move(curve));
@@ -266,8 +278,7 @@ std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const des
       curve.y.push_back(point[1]);
     }
     if (curve.x.empty()) continue;
-    figure.marks.push_back({"", curve.x.front(), curve.y.front(), MarkKind::start});
-    figure.marks.push_back({"", curve.x.back(), curve.y.back(), MarkKind::end});
+    add_marks(figure.marks, path.name, {curve.x.front(), curve.y.front()}, {curve.x.back(), curve.y.back()});
     figure.paths.push_back(std::move(curve));
   }
   figure.scale = AxisScale::logarithmic;  // the valley's floor and the caustics' peaks are decades apart

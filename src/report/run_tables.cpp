@@ -150,7 +150,7 @@ Table paths_table(const design::Scene& scene, const design::Landscape& landscape
   table.columns.push_back({"value", objective_unit(scene)});
   for (const design::SearchPath& path : landscape.paths)
     for (std::size_t i = 0; i < path.points.size(); ++i) {
-      std::vector<Cell> row{path.label};
+      std::vector<Cell> row{path.name};
       for (const double x : path.points[i]) row.emplace_back(x);
       path.values.empty() ? row.emplace_back(std::monostate{}) : row.emplace_back(path.values[i]);
       table.rows.push_back(std::move(row));

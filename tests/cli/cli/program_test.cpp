@@ -272,6 +272,16 @@ TEST_CASE("simulate, landscape, export and study leave what they promise") {
   run("landscape '" + paper + "start_a.toml' --set landscape.steps=[3,4]" + small, "l");
   const std::string table = read_whole(folder / "l" / "landscape.csv");
   CHECK(std::count(table.begin(), table.end(), '\n') == 13);
+  CHECK_FALSE(std::filesystem::exists(folder / "l" / "paths.csv"));
+  const std::string ways =
+      run("landscape '" + paper +
+              "start_a.toml' --set landscape.steps=[3,4] --set landscape.paths=true --set "
+              "'landscape.starts=[[1.8,7]]'" +
+              small,
+          "p");
+  CHECK_THAT(ways, Contains("A: (1.6, 9) to (") && Contains("B: (1.8, 7) to ("));
+  CHECK_THAT(read_whole(folder / "p" / "paths.csv"), Contains("\nA,1.6,9,") && Contains("\nB,1.8,7,"));
+  CHECK_THAT(read_whole(folder / "p" / "figures" / "contours.gp"), Contains("'A: (1.6, 9) to ("));
 
   run("export '" + paper +
           "paraboloid.toml' --format step --format stl --format glb --format brep --format iges",

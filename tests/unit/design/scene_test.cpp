@@ -1,5 +1,6 @@
 #include "design/scene.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -131,6 +132,23 @@ TEST_CASE("scenes that contradict themselves are refused with the key and its li
           "two different");
   refused(text("[landscape]\nvariables = [\"w1\"]\nlower = [1, 1]\nupper = [2]\nsteps = [3]\n"),
           "landscape.lower");
+  refused(text("[landscape]\npaths = true\n"), "landscape.paths");
+  const std::string
+      drawn = "[landscape]\nvariables = [\"w1\", \"r2\"]\nlower = [1, 5]\nupper = [2, 12]\nsteps = [2, 2]\n",
+      moved =
+          "[variables.w1]\nstep = 1\nlower = 0.1\nupper = 3\n[variables.r2]\nstep = 1\nlower = 1\nupper = "
+          "20\n";
+  refused(text(drawn + "paths = true\n[variables.w1]\nstep = 1\nlower = 0.1\nupper = 3\n"),
+          "r2 is not searched");
+  refused(text(drawn + "starts = [[1, 7]]\n" + moved), "no paths are drawn");
+  refused(text(drawn + "paths = true\nstarts = [[1, 7], [3.5, 7]]\n" + moved), "w1 = 3.5 lies outside");
+  refused(text(drawn + "paths = true\n[search]\nfree = \"profile\"\nrefine = [\"degree 3\"]\n"),
+          "landscape.paths");
+  refused(text("[landscape]\nvariables = [\"w1\"]\nlower = [1]\nupper = [2]\nsteps = [3]\npaths = "
+               "true\nstarts = [[1, 7]]\n" +
+               moved),
+          "starts are pairs");
+  CHECK(scene(text(drawn + "paths = true\nstarts = [[1, 7]]\n" + moved)).landscape->starts.size() == 1);
   refused(
       "[source]\npower = 1\n[reflector]\npoints = [[0, 1], [1, 0]]\nweights = [1]\n[near_field]\nradius = "
       "1\n",
@@ -159,6 +177,32 @@ TEST_CASE("what cannot be searched or aimed at is said before anything runs") {
   CHECK_THROWS_WITH(
       run_landscape(scene(text("[target]\nkind = \"paraboloid\"\nfocal_length = 5\n")), control),
       Catch::Contains("landscape.variables"));
+}
+
+TEST_CASE("a landscape's paths are those that the search takes from each start") {
+  for (const char* method : {"hooke-jeeves", "nelder-mead"}) {
+    INFO(method);
+    const std::vector<Override> small{{"landscape.steps", "[2, 2]", "test"},
+                                      {"landscape.paths", "true", "test"},
+                                      {"landscape.starts", "[[1.1, 9.5]]", "test"},
+                                      {"search.most_evaluations", "300", "test"},
+                                      {"search.method", "\"" + std::string(method) + "\"", "test"}};
+    const Scene drawn = read_scene(data + "/paper/start_a.toml", small);
+    const std::vector<SearchPath> paths = run_landscape(drawn, {}).paths;
+    REQUIRE(paths.size() == 2);
+    CHECK(paths[0].name == "A");
+    CHECK(paths[0].points.front() == std::vector<double>{1.6, 9});
+    CHECK(paths[1].points.front() == std::vector<double>{1.1, 9.5});
+    const DesignResult alone = run_design(drawn, {});
+    CHECK(paths[0].points.back() == alone.search.best);
+    CHECK(paths[0].values.back() == alone.search.value);
+    for (const SearchPath& path : paths) {
+      REQUIRE(path.values.size() == path.points.size());
+      CHECK(std::is_sorted(path.values.rbegin(), path.values.rend()));
+      CHECK(path.points.back()[0] == Approx(1).margin(0.05));
+      CHECK(path.points.back()[1] == Approx(10).margin(0.05));
+    }
+  }
 }
 
 TEST_CASE("a generatrix from an IGES file is placed, turned and written out as the scene's own") {

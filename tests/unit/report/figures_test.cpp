@@ -130,8 +130,9 @@ TEST_CASE("convergence is drawn on a logarithmic axis, zeros and infinities left
 TEST_CASE("a landscape shows contours with values, paths and marks") {
   const std::string script = landscape_contour_script(landscape());
   const std::string svg = drawn(script);
-  for (const char* text : {">run 1<", ">run 2<", ">w1<", ">r2 [cm]<", ">RMSE [W/m²]<"})
+  for (const char* text : {">run 1<", ">run 2<", ">w1<", ">r2 [cm]<", ">RMSE [W/m²]<", ">start<"})
     CHECK(count(svg, text) == 1);
+  CHECK(count(svg, ">end<") == 0);  // no such mark
   CHECK(count(svg, ">A<") == 10);  // once in black, nine times in the white rim
   CHECK(script.find("levels discrete 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7\n") != std::string::npos);
   CHECK(count(svg, ">0.3<") >= 2);  // at the colour bar and on the line
