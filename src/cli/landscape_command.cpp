@@ -13,8 +13,8 @@ namespace {
 /// The landscape's variables of every iterate in a convergence.csv; its column of moves is text and left out.
 design::SearchPath read_path(const std::filesystem::path& file, const std::vector<std::string>& names) {
   const design::CsvTable table = design::read_csv_table(file, {"move"});
-  const std::string name = file.parent_path().filename().string();
-  design::SearchPath path{name, name, {}, {}, {}};
+  const std::string run = file.parent_path().filename().string();
+  design::SearchPath path{run, run, {}, {}, {}};
   for (std::size_t row = 0; row < table.lines.size(); ++row) {
     std::vector<double> point;
     for (const std::string& name : names) point.push_back(design::column(table, name, file.string())[row]);
