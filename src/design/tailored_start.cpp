@@ -226,12 +226,12 @@ void serve_extended_source(const Scene& scene, TailoringTask& task, Made& made) 
   made.tailored.profile = std::move(found.profile);
 }
 
-std::string miss_in_words(const Tailored& tailored, RayMap kind, double seconds) {
+/// Without the time it took: results repeat bit for bit.
+std::string miss_in_words(const Tailored& tailored, RayMap kind) {
   return fmt::format(
-      "tailored by the {} ray map: rays miss their places by {:.2g} rad, {} evaluations from {} {} in {:.3g} "
-      "ms",
+      "tailored by the {} ray map: rays miss their places by {:.2g} rad, {} evaluations from {} {}",
       name(kind), tailored.miss_rad, tailored.evaluations, tailored.starts,
-      tailored.starts == 1 ? "start" : "starts", 1e3 * seconds);
+      tailored.starts == 1 ? "start" : "starts");
 }
 
 TailoredStart result(TailoringTask task, Tailored tailored, RayMap kind, Clock::time_point begin) {
@@ -246,7 +246,7 @@ TailoredStart result(TailoringTask task, Tailored tailored, RayMap kind, Clock::
                       0,
                       std::move(task.notes)};
   start.seconds = seconds_since(begin);
-  start.notes.push_back(miss_in_words(tailored, kind, start.seconds));
+  start.notes.push_back(miss_in_words(tailored, kind));
   return start;
 }
 

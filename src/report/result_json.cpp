@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/units.h"
+#include "design/constraints.h"
 #include "design/metrics.h"
 
 namespace catoptric::report {
@@ -18,6 +19,11 @@ Json variables_json(const design::Judged& judged) {
   return json;
 }
 
+/// An objective; null where it is the rank of a mirror that breaks constraints and no figure.
+Json search_value_json(double value) {
+  return value < design::infeasible_floor ? Json(value) : Json(nullptr);
+}
+
 /// What each search of a refined design had and reached; empty where nothing was refined.
 Json stages_json(const std::vector<design::RefinementStage>& stages) {
   Json json = Json::array();
@@ -27,7 +33,7 @@ Json stages_json(const std::vector<design::RefinementStage>& stages) {
                     {"points", stage.points},
                     {"variables", stage.variables},
                     {"evaluations", stage.evaluations},
-                    {"search_value", stage.value}});
+                    {"search_value", search_value_json(stage.value)}});
   return json;
 }
 
@@ -178,9 +184,7 @@ Json result_json(const design::Scene& scene, const design::DesignResult& result)
                {"sentence", result.search.sentence},
                {"unit", std::string(symbol(scene.unit))}};
   json.update(judged_json(scene, result.best));
-  // an objective of a mirror that breaks constraints is a rank, not a figure
-  json["search_value"] =
-      result.search.value < design::infeasible_floor ? Json(result.search.value) : Json(nullptr);
+  json["search_value"] = search_value_json(result.search.value);
   json["stages"] = stages_json(result.stages);
   json["constraints_sentence"] = design::sentence(result.best.constraints, scene.unit);
   json["start"] = judged_json(scene, result.start);

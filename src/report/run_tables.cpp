@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "design/constraints.h"
 #include "design/metrics.h"
 #include "report/result_json.h"
 
@@ -113,12 +114,10 @@ Table convergence_table(const design::Scene& scene, const design::DesignResult& 
   for (const std::string& name : names)
     table.columns.push_back({name, design::unit_of_variable(name, scene.unit)});
   for (const optim::Iterate& each : result.search.history) {
-    std::vector<Cell> row{static_cast<long long>(each.k),
-                          static_cast<long long>(each.iteration),
-                          static_cast<long long>(each.evaluations),
-                          each.step,
-                          each.move,
-                          each.value};
+    std::vector<Cell> row{static_cast<long long>(each.k), static_cast<long long>(each.iteration),
+                          static_cast<long long>(each.evaluations), each.step, each.move};
+    // that of a mirror that breaks constraints is a rank, not a figure
+    each.value < design::infeasible_floor ? row.emplace_back(each.value) : row.emplace_back(std::monostate{});
     const bool alike = each.x.size() == names.size();  // before a refinement there were other variables
     for (std::size_t i = 0; i < names.size(); ++i)
       alike ? row.emplace_back(each.x[i]) : row.emplace_back(std::monostate{});

@@ -25,6 +25,23 @@ optim::Outcome searched(const Scene& scene) {
   return search(scene, sim::Rung::tubes, make_target(scene), {});
 }
 
+/// How far a column of the Jacobian, times a factor, is from differences of the residuals, relative.
+double derivative_error(const optim::LeastSquaresProblem& problem, const std::vector<double>& x,
+                        const std::vector<double>& jacobian, std::size_t column, double factor) {
+  constexpr double step = 1e-3;
+  std::vector<double> up = x, down = x, plus(problem.residual_count), minus(problem.residual_count);
+  up[column] += step;
+  down[column] -= step;
+  if (!problem.evaluate(up, plus, nullptr) || !problem.evaluate(down, minus, nullptr)) return HUGE_VAL;
+  double difference = 0, size = 0;
+  for (std::size_t i = 0; i < plus.size(); ++i) {
+    const double slope = (plus[i] - minus[i]) / (2 * step);
+    difference += std::pow(slope - factor * jacobian[i * x.size() + column], 2);
+    size += slope * slope;
+  }
+  return std::sqrt(difference / size);
+}
+
 }  // namespace
 
 TEST_CASE("from a wide kernel to a narrow one, start A finds the paraboloid where it runs away otherwise") {
@@ -62,31 +79,30 @@ TEST_CASE("a blurred target is what the paraboloid's light is through the same k
 }
 
 TEST_CASE("the fit's norm is the scene's objective, and its derivatives are those of the residuals") {
-  for (const char* metric : {"rmse", "relative-rmse"}) {
-    const Scene scene = start_a({{"search.metric", metric, "test"}});
-    const Target target = make_target(scene);
-    const optim::LeastSquaresProblem problem = fit_problem(scene, target);
-    const SceneFamily family(scene.with(scene.profile), names(scene.variables), scene.unit);
-    const std::size_t count = problem.residual_count;
-    std::vector<double> x{1.3, 9.4}, residuals(count), jacobian(2 * count), plus(count), minus(count);
-    REQUIRE(problem.evaluate(x, residuals, jacobian.data()));
-    double square = 0;
-    for (const double each : residuals) square += each * each;
-    CHECK(std::sqrt(square) == Approx(value_at(scene, sim::Rung::tubes, target, family, x)).epsilon(1e-4));
-    for (std::size_t j = 0; j < 2; ++j) {
-      constexpr double step = 1e-3;
-      std::vector<double> up = x, down = x;
-      up[j] += step;
-      down[j] -= step;
-      REQUIRE(problem.evaluate(up, plus, nullptr));
-      REQUIRE(problem.evaluate(down, minus, nullptr));
-      double difference = 0, size = 0;
-      for (std::size_t i = 0; i < count; ++i) {
-        const double slope = (plus[i] - minus[i]) / (2 * step);
-        difference += std::pow(slope - jacobian[2 * i + j], 2);
-        size += slope * slope;
+  for (const char* free : {"\"listed\"", "\"profile\""})
+    for (const char* metric : {"rmse", "relative-rmse"}) {
+      INFO(free << ", " << metric);
+      const Scene scene = start_a({{"search.metric", metric, "test"}, {"search.free", free, "test"}});
+      const Target target = make_target(scene);
+      const optim::LeastSquaresProblem problem = fit_problem(scene, target);
+      std::vector<double> x = starts(scene.variables);
+      for (std::size_t j = 0; j < x.size(); ++j) {
+        if (scene.variables[j].name == "w1") x[j] = 1.3;
+        if (scene.variables[j].name == "logw1") x[j] = std::log(1.3);
+        if (scene.variables[j].name == "r2") x[j] = 9.4;
       }
-      CHECK(std::sqrt(difference / size) < 0.01);
+      REQUIRE(x.size() == (scene.search.free == Freedom::profile ? 5 : 2));
+      std::vector<double> residuals(problem.residual_count), jacobian(x.size() * residuals.size());
+      REQUIRE(problem.evaluate(x, residuals, jacobian.data()));
+      double square = 0;
+      for (const double each : residuals) square += each * each;
+      CHECK(std::sqrt(square) ==
+            Approx(value_at(scene, sim::Rung::tubes, target, family_of(scene), x)).epsilon(1e-4));
+      for (std::size_t j = 0; j < x.size(); ++j) {
+        INFO(scene.variables[j].name);
+        CHECK(derivative_error(problem, x, jacobian, j, 1) < 0.01);
+        // a weight's derivative that is no logarithm's, or a length's in another unit, would be seen
+        CHECK(derivative_error(problem, x, jacobian, j, 1 / 1.3) > 0.2);
+      }
     }
-  }
 }

@@ -15,6 +15,7 @@ namespace {
 
 const std::string program = CATOPTRIC_PROGRAM;
 const std::string paper = std::string(CATOPTRIC_DATA) + "/paper/";
+const std::string examples = std::string(CATOPTRIC_DATA) + "/examples/";
 
 /// Few photons and a coarse end, so that a whole design takes a second.
 const std::string small =
@@ -217,6 +218,13 @@ TEST_CASE(
   CHECK(yes["start"]["constraints"][0]["met"] == false);
   CHECK(yes["start"]["constraints"][0]["violation"].get<double>() == Approx(0.5));
   CHECK_THAT(read_whole(folder / "kept" / "report.html"), Contains("rim_radius_max"));
+  // the rank of the start, which breaks the constraint, is no figure to be shown
+  CHECK_THAT(read_whole(folder / "kept" / "convergence.csv"), Contains("\n0,0,1,1,start,,1.6,9\n"));
+  for (const char* out : {"kept", "broken"})
+    for (const char* file : {"convergence.csv", "report.html", "result.json"}) {
+      INFO(out << "/" << file);
+      CHECK_THAT(read_whole(folder / out / file), !Contains("e+100"));
+    }
 }
 
 TEST_CASE("every metric is reported whatever is searched") {
@@ -459,4 +467,104 @@ TEST_CASE("sensitivity prints and writes what the maker must keep") {
   CHECK_THAT(read_whole(folder / "derivatives.csv"), Catch::StartsWith("r,field,source_axial"));
   CHECK_THAT(read_whole(folder / "report.html"), Contains("<svg") && Contains("breaks the symmetry"));
   CHECK(program_run("sensitivity '" + paper + "paraboloid.toml' --set sensitivity.allowed=0").code == 3);
+}
+
+TEST_CASE("a free profile is refined as asked, and refinement of anything else is refused") {
+  const TemporaryFolder folder;
+  const auto design = [&](const std::string& more) {
+    return program_run("design '" + paper + "start_a.toml' --quiet --out '" + (folder / "a").string() + "'" +
+                       small + " --set 'search.refine=[\"degree 3\"]' " + more);
+  };
+  const Ended refused = design("");
+  CHECK(refused.code == 3);
+  CHECK_THAT(refused.output, Contains("search.refine") && Contains("search.free = \"profile\""));
+  CHECK_FALSE(std::filesystem::exists(folder / "a"));
+
+  const Ended done = design("--set search.free=profile --set search.method=levenberg-marquardt");
+  INFO(done.output);
+  REQUIRE((done.code == 0 || done.code == 5));
+  const json result = parsed(folder / "a" / "result.json");
+  REQUIRE(result["stages"].size() == 2);
+  CHECK(result["stages"][0]["variables"] == 5);
+  CHECK(result["stages"][1]["step"] == "degree 3");
+  CHECK(result["stages"][1]["variables"] == 8);
+  CHECK(result["stages"][1]["search_value"].get<double>() <=
+        result["stages"][0]["search_value"].get<double>() * 1.01 + 1e-9);  // tubes' own error
+  CHECK(result["variables"].size() == 8);
+  CHECK(result["start"]["variables"].size() == 5);
+}
+
+TEST_CASE("a tailored start, then Levenberg-Marquardt on the whole profile, meets the paper's target") {
+  const TemporaryFolder folder;
+  const Ended ended =
+      program_run("design '" + paper + "start_a.toml' --quiet --out '" + (folder / "a").string() +
+                  "' --set start=tailored --set search.free=profile --set "
+                  "search.method=levenberg-marquardt");
+  INFO(ended.output);
+  CHECK(ended.code == 0);
+  const json result = parsed(folder / "a" / "result.json");
+  CHECK(result["objective"]["value"].get<double>() < 0.004);  // the photons' noise is 0.0032
+  CHECK(result["search_value"].get<double>() < 1e-5);
+  CHECK(result["variables"].contains("logw1"));
+  CHECK_THAT(result["profile_notes"].dump(), Contains("tailored by the diverging ray map"));
+}
+
+TEST_CASE("a mirror made from nothing is written, and its scene file gives it again bit for bit") {
+  const TemporaryFolder folder;
+  const auto design = [&](const std::string& scene, const std::string& out, const std::string& more) {
+    const Ended ended =
+        program_run("design '" + scene + "' --quiet --out '" + (folder / out).string() + "' " + more);
+    INFO(ended.output);
+    REQUIRE(ended.code == 0);
+  };
+  const std::string fewer = "--set model.photons=65536 --set near_field.samples=200";
+  design(examples + "uniform_disc.toml", "one", fewer);
+  design(examples + "uniform_disc.toml", "two", fewer + " --threads 1");
+  design((folder / "one" / "scene.toml").string(), "again", "");
+  for (const char* name : {"reflector.step", "reflector.igs"}) {
+    CHECK(std::filesystem::file_size(folder / "one" / name) > 1000);
+    CHECK(read_whole(folder / "one" / name) == read_whole(folder / "again" / name));
+  }
+  const json one = repeatable(folder / "one" / "result.json");
+  json again = repeatable(folder / "again" / "result.json");
+  CHECK(one == repeatable(folder / "two" / "result.json"));
+  CHECK(one["variables"].is_object());
+  CHECK_THAT(one["profile_notes"].dump(), Contains("rays miss their places by"));
+  CHECK(one["objective"]["value"].get<double>() < 0.01);
+  CHECK(one["constraints"].size() == 2);
+  for (const json& constraint : one["constraints"]) CHECK(constraint["met"] == true);
+  CHECK(again["profile_notes"].empty());  // the mirror is written out by then
+  again["profile_notes"] = one["profile_notes"];
+  CHECK(one == again);
+}
+
+TEST_CASE("what a tailored mirror cannot reach is named by its key before any search") {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& change, const std::string& key, const std::string& words) {
+    const Ended ended = program_run("design '" + examples + "uniform_disc.toml' --out '" +
+                                    (folder / "out").string() + "' " + change);
+    INFO(change << "\n-> " << ended.output);
+    CHECK(ended.code == 3);
+    CHECK_THAT(ended.output, Contains(" " + key + ": ") && Contains(words));
+    CHECK_FALSE(std::filesystem::exists(folder / "out"));
+  };
+  refused("--set target.irradiance=0.5", "target.kind", "no mirror takes light away");
+  // 10 W / (4 pi) / 1 m^2 straight below the source
+  refused("--set target.irradiance=0.5", "target.kind", "up to 0.29");
+  refused("--set source.power=3", "source.power", "can have 3 W at most");
+  refused("--set 'near_field.normal=[0, 0, -1]'", "near_field.normal", "looks away");
+  refused("--set 'source.position=[5, 0, 0]'", "source.position", "on the axis");
+  refused("--set 'source.axis=[0, 1, 0]' --set source.exponent=1", "source.axis", "alike round the axis");
+  refused("--set reflector.reflectance=0", "reflector.reflectance", "reflects nothing");
+  refused("--set reflector.degree=2", "reflector.degree", "stands alone");
+  refused("--set tailored.points=3", "tailored.points", "too few for degree 3");
+
+  std::string text = read_whole(examples + "uniform_disc.toml");
+  const auto begin = text.find("[constraints]"), end = text.find("[near_field]");
+  REQUIRE(begin < end);
+  text.erase(begin, end - begin);
+  write_whole(folder / "no_size.toml", text);
+  const Ended ended = program_run("design '" + (folder / "no_size.toml").string() + "'");
+  CHECK(ended.code == 3);
+  CHECK_THAT(ended.output, Contains("tailored.vertex: is missing") && Contains("constraints.height_max"));
 }
