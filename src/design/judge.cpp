@@ -5,6 +5,7 @@
 
 #include "base/ordered_sum.h"
 #include "design/evaluator.h"
+#include "design/far_field.h"
 #include "design/metrics.h"
 #include "design/stage.h"
 
@@ -57,7 +58,9 @@ double debiased_value(Metric metric, const Scene& scene, const Target& target, c
                       const std::vector<double>& direct) {
   const std::vector<double> total = sum(sharp.mean, direct);
   const double value = *metric_value(metric, scene, total, target);
-  if (metric != Metric::rmse && metric != Metric::relative_rmse) return value;
+  if (more_is_better(metric)) return value;
+  if (metric == Metric::intensity_rmse)
+    return debiased_root(value * value, weighted_mean(sharp.variance_of_mean, target));
   const double rmse = from_w_per_m2(*metric_value(Metric::rmse, scene, total, target));
   const double clean = debiased_root(rmse * rmse, weighted_mean(sharp.variance_of_mean, target));
   return metric == Metric::rmse ? to_w_per_m2(clean) : rmse > 0 ? value * clean / rmse : 0.0;
@@ -94,18 +97,22 @@ Scene with_source(Scene scene, const Candidate& candidate) {
   return scene;
 }
 
+void take_figure(Judgement& judgement, const Scene& scene, Metric metric, const Figure& figure) {
+  judgement.metrics.push_back({metric, figure});
+  if (metric != scene.search.metric) return;
+  judgement.objective = figure;
+  judgement.objective.value = as_objective(metric, figure.value);
+  if (more_is_better(metric)) judgement.objective.bias = -figure.bias;
+}
+
 /// All metrics, and of them the scene's as the search saw it.
 void fill_metrics(Judgement& judgement, const Scene& scene, const Target& target, const Rows& reflected,
                   const Rows& sharp) {
   judgement.has_objective = !target.irradiance_w_per_mm2.empty();
   for (Metric metric : all_metrics()) {
     if (!metric_value(metric, scene, target.irradiance_w_per_mm2, target)) continue;
-    const Figure figure = judge_metric(metric, scene, target, reflected, sharp, judgement.direct);
-    judgement.metrics.push_back({metric, figure});
-    if (metric != scene.search.metric) continue;
-    judgement.objective = figure;
-    judgement.objective.value = as_objective(metric, figure.value);
-    if (more_is_better(metric)) judgement.objective.bias = -figure.bias;
+    take_figure(judgement, scene, metric,
+                judge_metric(metric, scene, target, reflected, sharp, judgement.direct));
   }
 }
 
@@ -134,6 +141,21 @@ std::vector<Evaluation> evaluations(const Scene& scene, const Target& target, co
   for (std::uint64_t i = 1; i < scene.model.replicates; ++i)
     list.push_back(evaluate_by_rung(scene, list.front().rung, candidate, target.samples, first_stream + i));
   return list;
+}
+
+/// What the luminaire is like from afar, where that is asked.
+void add_intensity(Judgement& judgement, const Target& target, const Candidate& candidate, sim::Rung rung,
+                   std::uint64_t first_stream) {
+  if (!target.far) return;
+  const FarField& far = *target.far;
+  std::vector<Evaluation> list = evaluations(far.scene, far.target, candidate, rung, first_stream);
+  Rows reflected;
+  for (Evaluation& each : list) reflected.push_back(far.as_intensity(std::move(each.reflected)));
+  const std::vector<double> direct = far.as_intensity(std::move(list.front().direct));
+  if (list.front().rung != sim::Rung::tubes)
+    judgement.far_photons = far.scene.model.photons.photons * list.size();
+  take_figure(judgement, far.scene, Metric::intensity_rmse,
+              judge_metric(Metric::intensity_rmse, far.scene, far.target, reflected, reflected, direct));
 }
 
 AccuracyReport report_of(const sim::AccurateField& field, double asked_rel) {
@@ -165,6 +187,7 @@ Judgement judge(const Scene& scene, const Target& target, const Candidate& candi
   // Where the target is blurred alike, it is the blurred field that compares to it.
   fill_metrics(judgement, with_source(scene, candidate), target, reflected,
                target.through_kernel ? reflected : sharp);
+  add_intensity(judgement, target, candidate, rung, first_stream);
   return judgement;
 }
 
@@ -195,6 +218,7 @@ Judgement judge_to_accuracy(const Scene& scene, const Target& target, const Cand
   judgement.field_bias_w_per_mm2 =
       field.bias_rel * root_mean_square(sum(judgement.direct, judgement.reflected));
   fill_metrics(judgement, with_source(scene, candidate), target, field.by_set, field.by_set);
+  add_intensity(judgement, target, candidate, sim::Rung::photons, first_stream);
   judgement.reflected = std::move(field.reflected);
   return judgement;
 }

@@ -46,6 +46,7 @@ struct Judgement {
   double kernel_radius_mm = 0;        ///< mean over the samples; 0: the field itself, without a kernel
   std::uint64_t photons = 0;          ///< of one evaluation
   std::uint64_t replicates = 0;
+  std::uint64_t far_photons = 0;          ///< of all evaluations of the intensity
   std::vector<double> direct, reflected;  ///< W/mm^2, means over replicates
   std::vector<double> noise;              ///< W/mm^2, standard error of `reflected`
   std::vector<double> bias;               ///< W/mm^2, estimated kernel blur of `reflected`

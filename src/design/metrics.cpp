@@ -6,12 +6,13 @@
 
 #include "base/ordered_sum.h"
 #include "design/evaluator.h"
+#include "design/far_field.h"
 
 namespace catoptric::design {
 namespace {
 
-constexpr std::array metrics{Metric::rmse, Metric::relative_rmse, Metric::enclosed_flux, Metric::uniformity,
-                             Metric::efficiency};
+constexpr std::array metrics{Metric::rmse,       Metric::relative_rmse, Metric::enclosed_flux,
+                             Metric::uniformity, Metric::efficiency,    Metric::intensity_rmse};
 
 /// The target at the level that comes nearest to the field: the least squares' one.
 std::vector<double> fitted(std::span<const double> total, const Target& target) {
@@ -35,6 +36,7 @@ std::optional<double> error(Metric metric, const Scene& scene, std::span<const d
       scene.target.free_scale ? fitted(total, target) : target.irradiance_w_per_mm2;
   const double rmse = root_mean_square_error(total, wanted, target.weights);
   if (metric == Metric::rmse) return to_w_per_m2(rmse);
+  if (metric == Metric::intensity_rmse) return rmse;
   if (!(root_mean_square(target.irradiance_w_per_mm2, target.weights) > 0)) return std::nullopt;
   if (!scene.target.free_scale) return rmse / root_mean_square(wanted, target.weights);
   const double field = root_mean_square(total, target.weights);  // at best fit its target is no larger
@@ -70,20 +72,26 @@ std::optional<double> flux_share(const Scene& scene, std::span<const double> tot
 
 std::span<const Metric> all_metrics() { return metrics; }
 
-bool more_is_better(Metric metric) { return metric != Metric::rmse && metric != Metric::relative_rmse; }
+bool more_is_better(Metric metric) {
+  return metric != Metric::rmse && metric != Metric::relative_rmse && metric != Metric::intensity_rmse;
+}
 
 std::string objective_name(Metric metric) {
   return (more_is_better(metric) ? "1 - " : "") + std::string(name(metric));
 }
 
-std::string unit(Metric metric) { return metric == Metric::rmse ? "W/m^2" : ""; }
+std::string unit(Metric metric) {
+  return metric == Metric::rmse ? "W/m^2" : metric == Metric::intensity_rmse ? "W/sr" : "";
+}
 
 std::optional<double> metric_value(Metric metric, const Scene& scene, std::span<const double> total_w_per_mm2,
                                    const Target& target) {
   if (target.irradiance_w_per_mm2.empty()) return std::nullopt;
+  if (target.intensities != (metric == Metric::intensity_rmse)) return std::nullopt;
   switch (metric) {
     case Metric::rmse:
     case Metric::relative_rmse:
+    case Metric::intensity_rmse:
       return error(metric, scene, total_w_per_mm2, target);
     case Metric::enclosed_flux:
       return flux_share(scene, total_w_per_mm2, target.within_reach);
@@ -108,6 +116,15 @@ void require_metric(const Scene& scene, const Target& target) {
     throw scene.settings.error("search.metric", "says nothing about a target of free scale",
                                "the darkest field fits best when the level is free",
                                "search.metric = \"relative-rmse\"");
+  if (metric == Metric::intensity_rmse) {
+    if (!target.far)
+      throw scene.settings.error("search.metric", "no intensity is wanted", "it compares with a table",
+                                 "target.intensity_file");
+    if (!scene.search.kernels_mm.empty())
+      throw scene.settings.error("search.kernels", "has no effect on intensities", "these are lengths",
+                                 "a larger target.intensity_resolution");
+    return;
+  }
   // the target itself stands for the field: the relative error of a dark one has no meaning
   if (!metric_value(metric, scene, target.irradiance_w_per_mm2, target))
     throw scene.settings.error(

@@ -23,7 +23,8 @@ std::string unit(Metric metric);
 /// rmse, relative_rmse: eq. 7, each sample with its weight; with a free scale against the level that fits
 /// best. uniformity: least over mean irradiance on the lit samples, those of weight 0 left out.
 /// enclosed_flux, efficiency: light within the target's reach, or on its lit part, over the source's power;
-/// every sample stands for the same area, whatever its weight.
+/// every sample stands for the same area, whatever its weight. intensity_rmse: root mean square over
+/// directions even in solid angle, of a FarField, whose target and intensities (W/sr) it takes.
 /// @out   nothing where there is no target, no lit sample, or a relative error has nothing to refer to
 /// @error flux and uniformity see the field where the samples are; a flux is off by about the share of its
 ///        samples that are neighbours of the zone's edge, times 1 / sqrt of their number

@@ -37,7 +37,8 @@ void need_target(const Scene& scene, const char* command) {
 }
 
 std::uint64_t emitted(const Judgement& judgement) {
-  return judgement.accuracy ? judgement.accuracy->spent_photons : judgement.photons * judgement.replicates;
+  return judgement.far_photons +
+         (judgement.accuracy ? judgement.accuracy->spent_photons : judgement.photons * judgement.replicates);
 }
 
 /// Shows how near an accuracy is, and stops with what there is when the user wants to.

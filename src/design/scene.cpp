@@ -122,7 +122,8 @@ ModelSpec model(const Settings& settings, double unit_mm) {
 }
 
 Metric metric(const std::string& text) {
-  for (Metric each : {Metric::relative_rmse, Metric::enclosed_flux, Metric::uniformity, Metric::efficiency})
+  for (Metric each : {Metric::relative_rmse, Metric::enclosed_flux, Metric::uniformity, Metric::efficiency,
+                      Metric::intensity_rmse})
     if (text == name(each)) return each;
   return Metric::rmse;
 }
@@ -331,7 +332,8 @@ std::string_view name(Engine engine) {
 }
 
 std::string_view name(Metric metric) {
-  constexpr std::string_view names[] = {"rmse", "relative-rmse", "enclosed-flux", "uniformity", "efficiency"};
+  constexpr std::string_view names[] = {"rmse",       "relative-rmse", "enclosed-flux",
+                                        "uniformity", "efficiency",    "intensity-rmse"};
   return names[static_cast<std::size_t>(metric)];
 }
 

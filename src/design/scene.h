@@ -38,7 +38,9 @@ struct TargetSpec {
   std::vector<double> table_weights;                    ///< radial: of the table's radii; empty: all alike
   std::vector<double> zone_weights;  ///< zones, and one for what lies beyond; empty: all alike
   double peak_w_per_mm2 = 0, sigma_mm = 0;
-  double reach_mm = 0;      ///< zones, gaussian, radial: nothing is wanted beyond
+  double reach_mm = 0;  ///< zones, gaussian, radial: nothing is wanted beyond
+  std::vector<double> angles_rad, intensities_w_per_sr;  ///< wanted from afar; empty: nothing
+  double resolution_rad = 0;                             ///< of angles there
   bool free_scale = false;  ///< only the shape is wanted: its level is the program's to choose
 };
 
@@ -57,7 +59,7 @@ struct ModelSpec {
   std::uint64_t most_photons;  ///< that proving an accuracy may spend
 };
 
-enum class Metric { rmse, relative_rmse, enclosed_flux, uniformity, efficiency };
+enum class Metric { rmse, relative_rmse, enclosed_flux, uniformity, efficiency, intensity_rmse };
 std::string_view name(Metric metric);
 
 /// What a search may move of the shape: named components, all of the profile, or its curvature.

@@ -7,6 +7,7 @@
 
 #include "design/constraints.h"
 #include "design/evaluator.h"
+#include "design/far_field.h"
 #include "design/metrics.h"
 #include "design/search_methods.h"
 
@@ -116,6 +117,9 @@ double value_at(const Scene& scene, sim::Rung rung, const Target& target, const 
   if (!candidate) return std::numeric_limits<double>::infinity();
   if (const double broken = violation(scene.constraints, candidate->profile); broken > 0)
     return infeasible_objective(broken);
+  if (scene.search.metric == Metric::intensity_rmse)
+    return objective(target.far->scene, intensity_by_rung(*target.far, rung, *candidate, search_stream),
+                     target.far->target);
   const std::vector<double> total = total_by_rung(scene, rung, *candidate, target.samples, search_stream);
   if (candidate->source.power_w == scene.source.power_w) return objective(scene, total, target);
   Scene powered = scene;  // a share of the power is a share of this candidate's

@@ -11,6 +11,7 @@
 #include "base/tolerance.h"
 #include "design/csv_table.h"
 #include "design/evaluator.h"
+#include "design/far_field.h"
 #include "design/radial_target.h"
 #include "design/stage.h"
 #include "design/target_smoothing.h"
@@ -218,6 +219,7 @@ Target make_target(const Scene& scene) {
   const auto wanted = radial_target(scene);
   if (wanted && scene.target.kind != TargetKind::paraboloid && scene.model.estimate.kernel_radius_mm)
     smooth(scene, *wanted, target);
+  target.far = far_field(scene);
   return target;
 }
 
@@ -231,6 +233,7 @@ Target make_sharp_target(const Scene& scene) {
   Target target =
       scene.target.kind == TargetKind::reflector ? sharp_from_reference(scene) : unmarked_target(scene);
   mark(scene, target);
+  target.far = far_field(scene);
   return target;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,8 @@
 
 namespace catoptric::design {
 
+struct FarField;
+
 /// Where irradiance is compared, and what is wanted there.
 struct Target {
   std::vector<sim::FieldSample> samples;
@@ -15,6 +18,8 @@ struct Target {
   std::vector<double> weights = {};          ///< how much a sample counts; empty: all alike
   std::vector<char> within_reach = {};       ///< 1 at samples within the target's outer edge
   std::vector<char> lit = {};                ///< 1 where light is wanted, by the target without a kernel
+  std::shared_ptr<const FarField> far = {};  ///< what is wanted from afar; null: nothing
+  bool intensities = false;                  ///< directions and W/sr, of a FarField
   bool through_kernel = false;  ///< seen through the scene's kernel, whose blur cancels in the comparison
 };
 

@@ -137,18 +137,52 @@ void read_radial_table(const Settings& settings, double unit_mm, TargetSpec& spe
                         fmt::format("{}:{}", file, table.lines[i]), "", ""});
 }
 
+/// So that scene.toml may lie elsewhere.
+void make_absolute(Settings& settings, const std::string& key) {
+  const auto absolute = std::filesystem::absolute(settings.folder() / *settings.text(key)).lexically_normal();
+  settings.set({key, "'" + absolute.string() + "'", settings.where(key)});
+}
+
+/// Plane angles beyond it lie too far out on the far plane.
+constexpr double greatest_angle_deg = 85;
+
+void read_intensities(const Settings& settings, TargetSpec& spec) {
+  const auto file = settings.text("target.intensity_file");
+  if (!file) return;
+  const CsvTable table = read_csv_table(*file);
+  const auto &angles = column(table, "angle", *file), &wanted = column(table, "intensity", *file);
+  if (angles.empty() || !(angles.back() > 0))
+    throw settings.error("target.intensity_file", "holds no angle above 0", "", "rows of angle, intensity");
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const std::string where = fmt::format("{}:{}", *file, table.lines[i]);
+    if (angles[i] < 0 || angles[i] > greatest_angle_deg || (i > 0 && !(angles[i] > angles[i - 1])))
+      throw InputError({fmt::format("angle {} is out of order", angles[i]), where,
+                        fmt::format("angles rise from 0 to {} degrees at most", greatest_angle_deg), ""});
+    if (wanted[i] < 0)
+      throw InputError({fmt::format("intensity {} W/sr is negative", wanted[i]), where, "", ""});
+    spec.angles_rad.push_back(angles[i] * pi / 180);
+    spec.intensities_w_per_sr.push_back(wanted[i]);
+  }
+  spec.resolution_rad = *settings.number("target.intensity_resolution") * pi / 180;
+}
+
 }  // namespace
 
 void complete_target(Settings& settings) {
+  if (settings.has("target.intensity_file")) {
+    make_absolute(settings, "target.intensity_file");
+    fill(settings, "target.intensity_resolution", "2.0");
+  } else if (settings.has("target.intensity_resolution")) {
+    throw settings.error("target.intensity_resolution", "stands alone", "no intensity is wanted",
+                         "target.intensity_file");
+  }
   const std::string kind = *settings.text("target.kind");
   check_keys(settings, kind);
   if (kind == "ring") fill(settings, "target.background", "0.0");
   if (kind == "gaussian") complete_gaussian(settings);
   if (kind == "csv" || kind == "radial") {
     fill(settings, "target.column", "\"irradiance\"");
-    const auto absolute =
-        std::filesystem::absolute(settings.folder() / *settings.text("target.file")).lexically_normal();
-    settings.set({"target.file", "'" + absolute.string() + "'", settings.where("target.file")});
+    make_absolute(settings, "target.file");
   }
 }
 
@@ -184,6 +218,7 @@ TargetSpec target_spec(const Settings& settings, double unit_mm, std::optional<P
   const double level = settings.number("target.level").value_or(1.0);
   for (double& each : spec.irradiances_w_per_mm2) each *= level;
   spec.peak_w_per_mm2 *= level;
+  read_intensities(settings, spec);
   return spec;
 }
 

@@ -568,3 +568,36 @@ TEST_CASE("what a tailored mirror cannot reach is named by its key before any se
   CHECK(ended.code == 3);
   CHECK_THAT(ended.output, Contains("tailored.vertex: is missing") && Contains("constraints.height_max"));
 }
+
+TEST_CASE("an intensity wanted from afar is searched and reported, and only where it is given") {
+  const TemporaryFolder folder;
+  write_whole(folder / "wanted.csv", "angle,intensity\n0,0.006\n40,0.004\n60,0.0025\n");
+  const auto design = [&](const std::string& out, const std::string& more) {
+    return program_run("design '" + paper + "start_a.toml' --quiet --out '" + (folder / out).string() + "'" +
+                       small + " --set model.interactions=4 --set search.metric=intensity-rmse " + more);
+  };
+  const std::string file = "--set \"target.intensity_file='" + (folder / "wanted.csv").string() + "'\"";
+  const Ended missing = design("missing", "");
+  CHECK(missing.code == 3);
+  CHECK_THAT(missing.output, Contains("search.metric") && Contains("target.intensity_file"));
+  const Ended fit = design("fit", file + " --set search.method=levenberg-marquardt");
+  CHECK(fit.code == 3);
+  CHECK_THAT(fit.output, Contains("rmse or relative-rmse"));
+
+  const Ended done = design("done", file);
+  INFO(done.output);
+  REQUIRE(done.code == 0);
+  const json result = parsed(folder / "done" / "result.json");
+  CHECK(result["objective"]["unit"] == "W/sr");
+  const json &best = result["metrics"]["intensity-rmse"],
+             &start = result["start"]["metrics"]["intensity-rmse"];
+  CHECK(result["objective"]["value"] == best["value"]);
+  CHECK(best["noise"].get<double>() > 0);
+  CHECK(best["value"].get<double>() < start["value"].get<double>());
+  CHECK(result["metrics"].contains("rmse"));
+
+  const Ended again = program_run("design '" + (folder / "done" / "scene.toml").string() +
+                                  "' --quiet --threads 1 --out '" + (folder / "again").string() + "'");
+  REQUIRE(again.code == 0);
+  CHECK(repeatable(folder / "again" / "result.json") == repeatable(folder / "done" / "result.json"));
+}
