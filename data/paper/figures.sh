@@ -13,7 +13,7 @@ run simulate data/paper/paraboloid.toml --out "$out/figure1"
 # Figure 2: starts A, B, C, what they light, and what the searches of Table 2 made of them
 run study data/paper/table2.toml --out "$out/figure2"
 
-# Photons as in the paper: ray tubes take a second for each of the narrowest mirrors, which send light to and fro.
+# Photons, as in the paper.
 landscape() { run landscape "$@" --set model.rung=photons --set model.photons=20000; }
 
 # Figure 3: the objective around the global minimum, as surfaces, and its contours with the searches from A, B and C
