@@ -133,7 +133,7 @@ TEST_CASE("a landscape shows contours with values, paths and marks") {
   for (const char* text : {">run 1<", ">run 2<", ">w1<", ">r2 [cm]<", ">RMSE [W/m²]<", ">start<"})
     CHECK(count(svg, text) == 1);
   CHECK(count(svg, ">end<") == 0);  // no such mark
-  CHECK(count(svg, ">A<") == 10);  // once in black, nine times in the white rim
+  CHECK(count(svg, ">A<") == 10);   // once in black, nine times in the white rim
   CHECK(script.find("levels discrete 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7\n") != std::string::npos);
   CHECK(count(svg, ">0.3<") >= 2);  // at the colour bar and on the line
 }
