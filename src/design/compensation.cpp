@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t nodes = 96;           ///< radii at which light is compared, even in area
 constexpr std::uint64_t photons = 262'144;  ///< in all sets
 constexpr std::uint64_t sets = 4;
-constexpr std::uint64_t stream = std::uint64_t{1} << 35;  ///< nobody else's photons
+constexpr std::uint64_t stream = std::uint64_t{1} << 36;  ///< nobody else's photons
 /// Wanted light is sharpened by so many rounds before a mirror is made for it: what is too sharp for a spline
 /// of few points, or for images that are not alike, shows in the real light.
 constexpr int sharpenings[] = {3, 10, 30, 100, 300};
