@@ -12,9 +12,10 @@
 namespace catoptric::report {
 namespace {
 
-constexpr int curve_points = 200;  ///< along a drawn generatrix
-constexpr int radial_bins = 40;    ///< along a radial cut
-constexpr int grid_cells = 120;    ///< across an irradiance map
+constexpr double most_sizes_apart = 4;  ///< a mirror beside a field farther away would be a speck
+constexpr int curve_points = 200;       ///< along a drawn generatrix
+constexpr int radial_bins = 40;         ///< along a radial cut
+constexpr int grid_cells = 120;         ///< across an irradiance map
 
 std::string unit_of(const design::Scene& scene) { return std::string(symbol(scene.unit)); }
 
@@ -65,9 +66,13 @@ GeneratrixFigure generatrix_figure(const design::Scene& scene, const design::Sou
   const Vector3& source_mm = source.position_mm;
   figure.source = PlanePoint{scene.to_scene_unit(std::hypot(source_mm.x(), source_mm.y())),
                              scene.to_scene_unit(source_mm.z())};
-  if (std::abs(scene.near_field.normal().z()) >
-      0.5) {  // a steeper field has no readable section with the meridian
-    const Vector3& center_mm = scene.near_field.center_mm();
+  const Vector3& center_mm = scene.near_field.center_mm();
+  const double apart_mm = std::abs(center_mm.z() - source_mm.z());
+  if (apart_mm > most_sizes_apart * scene.profile.diagonal_mm()) {
+    figure.title += fmt::format(" (the near field is {:.4g} {} from the source, not drawn)",
+                                scene.to_scene_unit(apart_mm), unit_of(scene));
+  } else if (std::abs(scene.near_field.normal().z()) >
+             0.5) {  // a steeper field has no readable section with the meridian
     const double r_mm = std::hypot(center_mm.x(), center_mm.y());
     figure.near_field = {
         {scene.to_scene_unit(std::max(0.0, r_mm - scene.near_field.half_width_mm())),
