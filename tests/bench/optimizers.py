@@ -2,7 +2,7 @@
 """Compares the searches on the paper's three starts: evaluations and time to a given RMSE, as a markdown table.
 
   tests/bench/optimizers.py build/catoptric                 all methods, five seeds, some minutes
-  tests/bench/optimizers.py build/catoptric --seeds 2 --methods cma-es,genetic
+  tests/bench/optimizers.py build/catoptric --seeds 2 --methods "cma-es; genetic"
 Ray tubes are the evaluator, with the kernel of the scenes (0.5 cm). A mirror in a far corner of the box is a deep
 cavity: light is followed through four meetings there, which the searches' goal, light reflected once, does not feel.
 Methods without random numbers run once for each start, others once for each seed.
