@@ -11,6 +11,7 @@
 #include "design/tailored_start.h"
 #include "design/tailoring.h"
 #include "sim/tubes.h"
+#include "support/paper_tailoring.h"
 
 /// What it costs to tailor a mirror, without a search of light: the paper's starts in its two variables; a
 /// thousand random starts in its whole box; a hundred in all five variables that are no flat directions; and
@@ -18,39 +19,14 @@
 
 using namespace catoptric;
 using namespace catoptric::design;
+using namespace catoptric::test;
 
 namespace {
 
-constexpr double a = 50, power_w = pi / 100;
-const AxialLayout paper{a, 0, 1};
-
-FluxMap paper_map() {
-  return FluxMap(polar_flux(power_w, 0, true), 1,
-                 {[](double p) {
-                    const double widening = 1 + p * p / (4 * a * a);
-                    return power_w / (4 * pi * a * a * widening * widening);
-                  },
-                  {},
-                  2 * a});
-}
+constexpr double a = paper_focus_mm, power_w = paper_power_w;
 
 Profile bezier(double z0, double r1, double w1, double r2, double z2) {
   return Profile::bezier({{0, z0, 1}, {r1, z0, w1}, {r2, z2, 1}});
-}
-
-ProfileVariables two_variables(double w1, double r2_mm) {
-  ProfileVariables family;
-  family.variables = {{"w1", std::log(w1), 0.1, std::log(0.05), std::log(20.0)}, {"r2", r2_mm, 1, 10, 300}};
-  family.at = [](std::span<const double> x) -> std::optional<Profile> {
-    return bezier(2 * a, a, std::exp(x[0]), x[1], a);
-  };
-  family.chain = [](const Profile& profile) {
-    Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(9, 2);
-    chain(5, 0) = profile.points()[1].weight;
-    chain(6, 1) = 1;
-    return chain;
-  };
-  return family;
 }
 
 ProfileVariables all_variables(const Profile& base) {
@@ -67,7 +43,7 @@ void start(benchmark::State& state, double w1, double r2_mm) {
   std::optional<Tailored> tailored;
   for (auto _ : state) {
     const FluxMap map = paper_map();
-    tailored = tailor(map, paper, RayMap::diverging, two_variables(w1, r2_mm));
+    tailored = tailor(map, paper_layout, RayMap::diverging, paper_variables(w1, r2_mm));
   }
   state.counters["evaluations"] = static_cast<double>(tailored->evaluations);
   state.counters["off_w1"] = std::abs(std::exp(tailored->values[0]) - 1);
@@ -87,7 +63,7 @@ void random_starts(benchmark::State& state) {
       const double w1 = 0.05 + 19.95 * random.uniform(), r2_mm = 10 + 290 * random.uniform();
       const auto begin = std::chrono::steady_clock::now();
       const FluxMap map = paper_map();
-      const Tailored tailored = tailor(map, paper, RayMap::diverging, two_variables(w1, r2_mm));
+      const Tailored tailored = tailor(map, paper_layout, RayMap::diverging, paper_variables(w1, r2_mm));
       slowest = std::max(slowest, milliseconds_since(begin));
       off = std::max(
           {off, std::abs(std::exp(tailored.values[0]) - 1), std::abs(tailored.values[1] / (2 * a) - 1)});
@@ -129,7 +105,7 @@ void five_variables(benchmark::State& state) {
       const Profile base = bezier(z0, r1, w1, r2, between(0, 90));
       const auto begin = std::chrono::steady_clock::now();
       const FluxMap map = paper_map();
-      const Tailored tailored = tailor(map, paper, RayMap::diverging, all_variables(base));
+      const Tailored tailored = tailor(map, paper_layout, RayMap::diverging, all_variables(base));
       slowest = std::max(slowest, milliseconds_since(begin));
       off = std::max(off, light_off_rel(tailored.profile));
     }

@@ -8,26 +8,15 @@
 #include "base/units.h"
 #include "design/direction_residuals.h"
 #include "design/profile_fit.h"
+#include "support/paper_tailoring.h"
 
 using namespace catoptric;
 using namespace catoptric::design;
+using namespace catoptric::test;
 
 namespace {
 
-/// The paper's scene: source 50 mm above the near field, its paraboloid's light wanted.
-constexpr double a = 50, power_w = pi / 100;
-
-FluxMap paper_map() {
-  return FluxMap(polar_flux(power_w, 0, true), 1,
-                 {[](double p) {
-                    const double widening = 1 + p * p / (4 * a * a);
-                    return power_w / (4 * pi * a * a * widening * widening);
-                  },
-                  {},
-                  2 * a});
-}
-
-const AxialLayout paper{a, 0, 1};
+constexpr double a = paper_focus_mm;
 
 std::vector<double> angles(double last, std::size_t count) {
   std::vector<double> list;
@@ -36,27 +25,12 @@ std::vector<double> angles(double last, std::size_t count) {
   return list;
 }
 
-/// The paper's two variables, the weight by its logarithm.
-ProfileVariables paper_variables(double w1, double r2_mm) {
-  ProfileVariables family;
-  family.variables = {{"w1", std::log(w1), 0.1, std::log(0.05), std::log(20.0)}, {"r2", r2_mm, 1, 10, 300}};
-  family.at = [](std::span<const double> x) -> std::optional<Profile> {
-    return Profile::bezier({{0, 2 * a, 1}, {a, 2 * a, std::exp(x[0])}, {x[1], a, 1}});
-  };
-  family.chain = [](const Profile& profile) {
-    Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(9, 2);
-    chain(5, 0) = profile.points()[1].weight;
-    chain(6, 1) = 1;
-    return chain;
-  };
-  return family;
-}
-
 }  // namespace
 
 TEST_CASE("the equation of the mirror gives the paraboloid for the paraboloid's light") {
   const FluxMap map = paper_map();
-  const auto curve = tailored_curve(map, paper, RayMap::diverging, a, angles(map.last_angle_rad(), 25));
+  const auto curve =
+      tailored_curve(map, paper_layout, RayMap::diverging, a, angles(map.last_angle_rad(), 25));
   const auto* points = std::get_if<std::vector<CurvePoint>>(&curve);
   REQUIRE(points);
   REQUIRE(points->size() == 26);
@@ -68,7 +42,7 @@ TEST_CASE("the equation of the mirror gives the paraboloid for the paraboloid's 
 
 TEST_CASE("the equation of the mirror holds upside down and for light that crosses the axis") {
   const FluxMap map = paper_map();
-  const auto up = tailored_curve(map, paper, RayMap::crossing, 0.7 * a, angles(1.2, 10));
+  const auto up = tailored_curve(map, paper_layout, RayMap::crossing, 0.7 * a, angles(1.2, 10));
   const auto down = tailored_curve(map, {-a, 0, -1}, RayMap::crossing, 0.7 * a, angles(1.2, 10));
   const auto &above = std::get<0>(up), &below = std::get<0>(down);
   for (std::size_t i = 0; i < above.size(); ++i) {
@@ -95,7 +69,7 @@ TEST_CASE("a mirror that would be seen edge-on is refused in words") {
 TEST_CASE("a fitted spline follows the curve, begins smooth on the axis and ends where the curve ends") {
   const FluxMap map = paper_map();
   const auto curve =
-      std::get<0>(tailored_curve(map, paper, RayMap::diverging, a, angles(map.last_angle_rad(), 200)));
+      std::get<0>(tailored_curve(map, paper_layout, RayMap::diverging, a, angles(map.last_angle_rad(), 200)));
   const std::vector<double> knots = knots_with_breaks(3, 10, {0.4});
   CHECK(std::count(knots.begin(), knots.end(), 0.4) == 2);
   CHECK(knots.size() == 14);
@@ -112,7 +86,7 @@ TEST_CASE("a fitted spline follows the curve, begins smooth on the axis and ends
 
 TEST_CASE("direction residuals vanish for the right mirror, and their derivatives are exact") {
   const FluxMap map = paper_map();
-  const DirectionResiduals rays(map, paper, RayMap::diverging, 2, Profile::uniform_knots(2, 3), 40);
+  const DirectionResiduals rays(map, paper_layout, RayMap::diverging, 2, Profile::uniform_knots(2, 3), 40);
   std::vector<double> miss(rays.size());
   rays.evaluate(std::vector<ControlPoint>{{0, 2 * a, 1}, {a, 2 * a, 1}, {2 * a, a, 1}}, miss, nullptr);
   for (const double each : miss) CHECK(std::abs(each) < 1e-9);
@@ -148,7 +122,7 @@ TEST_CASE("the paper's starts, and random ones, all reach the paraboloid") {
   int most_starts = 0;
   for (const auto& [w1, r2_mm] : starts) {
     INFO(w1 << " " << r2_mm);
-    const Tailored tailored = tailor(map, paper, RayMap::diverging, paper_variables(w1, r2_mm));
+    const Tailored tailored = tailor(map, paper_layout, RayMap::diverging, paper_variables(w1, r2_mm));
     CHECK(std::exp(tailored.values[0]) == Approx(1).epsilon(1e-6));
     CHECK(tailored.values[1] == Approx(2 * a).epsilon(1e-6));
     most_starts = std::max(most_starts, tailored.starts);
@@ -161,10 +135,10 @@ TEST_CASE("tailoring never ends worse than it began, whatever it cannot reach") 
   // The rim is pinned far from where the light ends: no weight can mend that.
   ProfileVariables family = paper_variables(1.3, 40);
   family.variables[1].lower = family.variables[1].upper = family.variables[1].start;
-  const Tailored tailored = tailor(map, paper, RayMap::diverging, family);
+  const Tailored tailored = tailor(map, paper_layout, RayMap::diverging, family);
   CHECK(tailored.values[1] == 40);
   CHECK(tailored.miss_rad > 0.01);
   CHECK(tailored.starts > 1);
-  const Tailored again = tailor(map, paper, RayMap::diverging, family);
+  const Tailored again = tailor(map, paper_layout, RayMap::diverging, family);
   CHECK(again.values == tailored.values);
 }
