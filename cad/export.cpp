@@ -118,6 +118,7 @@ ExportReport export_reflector(const Profile& profile, const std::filesystem::pat
   PendingFile pending(path);
   write(report.format, shape, pending.temporary_path(), labels, options,
         options.chord_tolerance_rel * profile.diagonal_mm(), report);
+  pending.require_room();
   if (report.format != FileFormat::stl && report.format != FileFormat::glb)
     report.largest_deviation_mm = verify(report.format, options, pending, path, shape, profile);
   pending.commit();

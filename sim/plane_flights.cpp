@@ -79,6 +79,7 @@ FlightTotals PlaneFlights::fly(const PhotonOptions& options, bool front, const T
   const std::uint64_t key = photon_key(options.seed, options.stream), photons = options.photons;
   SharedCounts counts;
   tbb::parallel_for(std::uint64_t{0}, PhotonFlights::chunks(photons), [&](std::uint64_t i) {
+    give_up_if_stopped(options);
     const std::uint64_t first = i * photons_of_a_chunk;
     const auto count = static_cast<std::size_t>(std::min(photons_of_a_chunk, photons - first));
     static constexpr auto ones = filled_with(1), zeros = filled_with(0);

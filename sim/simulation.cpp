@@ -3,10 +3,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 
 #include "base/profile.h"
 #include "base/tolerance.h"
 #include "sim/clear_view.h"
+#include "sim/photon_fields.h"
 
 namespace catoptric::sim {
 namespace {
@@ -44,15 +46,14 @@ std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample
 
 FieldEstimate simulate(const Scene& scene, std::span<const FieldSample> samples, const PhotonOptions& photons,
                        const EstimateOptions& estimate) {
-  check(estimate);
-  TracedPhotons traced = trace_photons(scene, photons, recording_margin_mm(scene.near_field, estimate));
-  MapEstimate reflected = PhotonMap(scene.near_field, std::move(traced)).estimate(samples, estimate);
+  PhotonFields fields = photon_fields(scene, samples, photons, std::array{estimate});
+  MapEstimate& reflected = fields.estimates.front();
   return {direct_field(scene, samples),
           std::move(reflected.irradiance),
           std::move(reflected.noise),
           std::move(reflected.kernel_radius_mm),
-          traced.energy,
-          traced.counts};
+          fields.energy,
+          fields.counts};
 }
 
 }  // namespace catoptric::sim

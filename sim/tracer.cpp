@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/contract.h"
 #include "base/profile.h"
 #include "base/random_stream.h"
 #include "base/tolerance.h"
@@ -222,6 +223,10 @@ void check(const PhotonOptions& options) {
                       "a photon must be allowed to meet the mirror once", "1000 is usual"});
 }
 
+void give_up_if_stopped(const PhotonOptions& options) {
+  if (options.stop && options.stop->load(std::memory_order_relaxed)) throw Interrupted();
+}
+
 ProjectionMap emission_map(const Scene& scene) {
   if (auto defect = find_defect(scene.mirror)) {
     defect->where = "mirror";
@@ -282,16 +287,36 @@ std::uint64_t PhotonFlights::chunks(std::uint64_t photons) {
 }
 
 FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossings& take) const {
+  return fly(options, take, std::max<std::uint64_t>(1, chunks(options.photons)), [] {});
+}
+
+double PhotonFlights::photon_power_w(std::uint64_t photons) const {
+  return SharedCounts()
+      .totals(photons, parts_->scene.source.power_into_w(parts_->map), parts_->scene.mirror)
+      .photon_power_w;
+}
+
+FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossings& take,
+                                std::uint64_t chunks_of_a_batch, const std::function<void()>& landed) const {
   check(options);
+  CATOPTRIC_EXPECTS(chunks_of_a_batch > 0);
   const std::uint64_t key = photon_key(options.seed, options.stream);
   const std::uint64_t photons = options.photons;
   SharedCounts counts;
-  tbb::parallel_for(std::uint64_t{0}, chunks(photons), [&](std::uint64_t i) {
+  const auto fly_chunk = [&](std::uint64_t i) {
+    give_up_if_stopped(options);
     const std::uint64_t first = i * photons_of_a_chunk;
     ChunkResult chunk = parts_->trace(options, key, first, std::min(first + photons_of_a_chunk, photons));
     counts.add(chunk.counts);
     take(i, std::move(chunk.crossings));
-  });
+  };
+  std::uint64_t begin = 0;
+  do {
+    const std::uint64_t end = std::min(chunks(photons), begin + chunks_of_a_batch);
+    tbb::parallel_for(begin, end, fly_chunk);
+    landed();
+    begin = end;
+  } while (begin < chunks(photons));
 
   return counts.totals(photons, parts_->scene.source.power_into_w(parts_->map), parts_->scene.mirror);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -20,6 +21,7 @@ struct PhotonOptions {
   std::uint64_t seed = 1;
   std::uint64_t stream = 0;  ///< another stream is another independent set of photons
   int most_interactions = 1000;
+  const std::atomic<bool>* stop = nullptr;  ///< true: photons in flight are given up with Interrupted
 };
 
 /// Where the emitted power went. Photons are counted as whole numbers, so the parts add up to emitted_w
@@ -90,6 +92,9 @@ inline constexpr std::uint64_t photons_of_a_chunk = 1024;
 /// @fails InputError for more than most_photons photons, most_interactions below 1
 void check(const PhotonOptions& options);
 
+/// For the beginning of each chunk of photons.  @fails Interrupted once options.stop is true
+void give_up_if_stopped(const PhotonOptions& options);
+
 /// Where photons are sent: a real near field that reflects may light the mirror from anywhere; else only the
 /// mirror's own directions matter (transmission goes straight on, so it needs no others).
 /// @fails InputError for a bad mirror material
@@ -126,8 +131,17 @@ class PhotonFlights {
   /// Chunks of a set of so many photons.
   static std::uint64_t chunks(std::uint64_t photons);
 
-  /// @fails InputError for more than most_photons photons, most_interactions below 1
+  /// @fails InputError for more than most_photons photons, most_interactions below 1; Interrupted once
+  ///        options.stop is true
   FlightTotals fly(const PhotonOptions& options, const TakeCrossings& take) const;
+
+  /// The same, batch after batch of so many chunks, for takers that must not keep all crossings: `landed` is
+  /// called when all chunks of a batch are down, at least once.
+  FlightTotals fly(const PhotonOptions& options, const TakeCrossings& take, std::uint64_t chunks_of_a_batch,
+                   const std::function<void()>& landed) const;
+
+  /// Power of one of so many photons once it has met the mirror, W.
+  double photon_power_w(std::uint64_t photons) const;
 
  private:
   struct Parts;

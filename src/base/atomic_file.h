@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 
@@ -18,6 +19,11 @@ class PendingFile {
   /// Where to write before commit(). Its extension is the final one's, which some writers look at.
   const std::filesystem::path& temporary_path() const { return temporary_; }
 
+  /// For writers that do not tell: whether the disk ran full under the temporary file. To be asked when it is
+  /// written.
+  /// @fails IoError when the file cannot grow any more
+  void require_room() const;
+
   /// @fails IoError when the file cannot be synced or renamed
   void commit();
 
@@ -30,8 +36,10 @@ class PendingFile {
 /// @fails IoError
 void write_file_whole(const std::filesystem::path& path, std::string_view content);
 
-/// Makes the folder (and its parents) and proves by a trial file that it can be written to.
+/// Makes the folder (and its parents) and proves by a trial file, taken away again, that so many bytes can be
+/// written there. What a quota or a limit on file sizes forbids is found too. Temporary files that killed
+/// processes left there more than a minute ago are taken away.
 /// @fails IoError
-void prepare_output_folder(const std::filesystem::path& folder);
+void prepare_output_folder(const std::filesystem::path& folder, std::uint64_t bytes);
 
 }  // namespace catoptric

@@ -61,4 +61,10 @@ class IoError : public Error {
   explicit IoError(ErrorParts parts) : Error(ExitCode::cannot_write, std::move(parts)) {}
 };
 
+/// The user asked to stop, and there is nothing to show for it (exit 130).
+class Interrupted : public Error {
+ public:
+  Interrupted() : Error(ExitCode::interrupted, {"interrupted", "", "nothing was written", ""}) {}
+};
+
 }  // namespace catoptric

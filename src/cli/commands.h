@@ -25,6 +25,10 @@ struct CommonOptions {
   std::filesystem::path out_folder() const;
 };
 
+struct DesignOptions {
+  bool resume = false;  ///< go on with the search that was broken off in the output folder
+};
+
 struct LandscapeOptions {
   std::vector<std::filesystem::path>
       paths;  ///< convergence.csv files whose searches are drawn over the contours
@@ -40,7 +44,7 @@ struct ExportCommandOptions {
   std::vector<std::string> formats;  ///< step, iges, brep, stl, glb; empty: step and iges
 };
 
-ExitCode design_command(const CommonOptions& options);
+ExitCode design_command(const CommonOptions& options, const DesignOptions& more);
 ExitCode simulate_command(const CommonOptions& options);
 ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions& more);
 ExitCode explain_command(const CommonOptions& options);

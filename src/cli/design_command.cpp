@@ -4,10 +4,29 @@
 
 #include "cli/scene_run.h"
 #include "cli/stop_signal.h"
+#include "report/run_checkpoint.h"
 #include "report/run_tables.h"
 
 namespace catoptric::cli {
 namespace {
+
+/// What a search with its checkpoint was told so far, and the file that follows it.
+struct ResumableSearch {
+  ResumableSearch(const SceneRun& run, bool resume)
+      : file(run.scene, run.out), resumed(resume && file.exists()), tape(known(resumed)) {
+    if (resume && !resumed)
+      fmt::print(stderr, "catoptric: no checkpoint in {}: the search begins anew\n", run.out.string());
+    tape.grown = [this](const optim::SearchTape& grown) { file.keep(grown); };
+  }
+
+  std::vector<optim::Answer> known(bool resume) const {
+    return resume ? file.read() : std::vector<optim::Answer>{};
+  }
+
+  report::Checkpoint file;
+  bool resumed;
+  optim::SearchTape tape;
+};
 
 /// A result that breaks constraints is no design, however well the search converged.
 ExitCode exit_code(const design::DesignResult& result) {
@@ -28,6 +47,13 @@ ExitCode with_accuracy(ExitCode code, const design::Judgement& judgement) {
   return stop_on_signal() ? ExitCode::interrupted : ExitCode::unconverged;
 }
 
+/// A budget that is spent is not found again by itself.
+std::string how_to_go_on(const CommonOptions& options, ExitCode code) {
+  return fmt::format("go on from here with: catoptric design {} --out {} --resume{}", options.input.string(),
+                     options.out_folder().string(),
+                     code == ExitCode::unconverged ? " and a larger search.most_evaluations" : "");
+}
+
 void print_accuracy(const design::Judgement& judgement) {
   if (judgement.accuracy) fmt::print("{}\n", judgement.accuracy->sentence);
 }
@@ -40,9 +66,12 @@ void print_constraints(const design::Scene& scene, const design::Judged& judged)
 
 }  // namespace
 
-ExitCode design_command(const CommonOptions& options) {
+ExitCode design_command(const CommonOptions& options, const DesignOptions& more) {
   SceneRun run(options);
-  const design::DesignResult result = design::run_design(run.scene, run.control);
+  ResumableSearch search(run, more.resume);
+  design::RunControl control = run.control;
+  control.tape = &search.tape;
+  const design::DesignResult result = design::run_design(run.scene, control);
   run.line.show({"write", 1.0, std::numeric_limits<double>::quiet_NaN(), 0});
   const auto files = report::write_design(run.scene, result, run.out);
   run.line.finish();
@@ -55,7 +84,14 @@ ExitCode design_command(const CommonOptions& options) {
                result.search_seconds, result.photons, result.seconds);
     run.print_files(files);
   }
-  return with_accuracy(exit_code(result), result.best.judgement);
+  const ExitCode code = with_accuracy(exit_code(result), result.best.judgement);
+  if (code == ExitCode::done) {
+    search.file.remove();
+  } else {
+    search.file.write(search.tape);
+    if (!options.quiet) fmt::print("{}\n", how_to_go_on(options, code));
+  }
+  return code;
 }
 
 ExitCode simulate_command(const CommonOptions& options) {

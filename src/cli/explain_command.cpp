@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 #include "design/evaluator.h"
+#include "design/memory_need.h"
 #include "design/run.h"
 
 namespace catoptric::cli {
@@ -24,6 +25,7 @@ ExitCode explain_command(const CommonOptions& options) {
   if (scene.accuracy_rel)
     fmt::print("  {:<22}  photons and bandwidth are found until the relative error is at most {:g} (95 %)\n",
                "accuracy", *scene.accuracy_rel);
+  fmt::print("  {:<22}  {}\n", "memory", design::memory_need(scene).sentence);
   if (!scene.variables.empty()) {
     const sim::Plan searched = design::make_plan(scene, design::family_of(scene));
     if (searched.rung == shown.rung)

@@ -6,6 +6,7 @@
 #include "cad/export.h"
 #include "cli/commands.h"
 #include "design/run.h"
+#include "report/run_files.h"
 
 namespace catoptric::cli {
 namespace {
@@ -36,7 +37,7 @@ ExitCode export_command(const CommonOptions& options, const ExportCommandOptions
   const design::Scene scene = design::read_scene(options.input, options.overrides());
   const Profile profile = design::start_profile(scene);
   const std::filesystem::path out = options.out_folder();
-  prepare_output_folder(out);
+  prepare_output_folder(out, report::room_for(scene));
   std::vector<std::string> wanted = more.formats;
   if (wanted.empty()) wanted = {"step", "iges"};
   std::vector<std::string> lines;

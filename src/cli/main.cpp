@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -31,6 +32,7 @@ void add_common(CLI::App& command, CommonOptions& options, const char* input) {
 struct Parser {
   CLI::App app{"Designs rotationally symmetric mirrors from the light they must make."};
   CommonOptions common;
+  DesignOptions design;
   LandscapeOptions landscape;
   ProfileOptions profile;
   ExportCommandOptions shape;
@@ -53,9 +55,13 @@ struct Parser {
         "  catoptric profile mirror.igs\n\n"
         "Exit codes: 0 done, 1 our bug, 2 usage, 3 scene invalid, 4 geometry or exchange,\n"
         "5 ended unconverged (files written), 6 cannot write, 130 interrupted (best so far written).");
-    add_common(*app.add_subcommand("design", "The whole job: search the mirror, verify, export, report")
-                    ->footer("Example: catoptric design data/paper/start_a.toml --set search.acceleration=2"),
-               common, "SCENE.toml");
+    auto* designed = app.add_subcommand("design", "The whole job: search the mirror, verify, export, report");
+    add_common(*designed, common, "SCENE.toml");
+    designed->add_flag("--resume", design.resume,
+                       "Go on with the search that was broken off in the same folder, to the same bits");
+    designed->footer(
+        "Example: catoptric design data/paper/start_a.toml --set search.acceleration=2\n"
+        "After Ctrl-C or a kill: catoptric design SCENE.toml --out DIR --resume");
     add_common(
         *app.add_subcommand("simulate", "Irradiance of the scene as it stands")
              ->footer("Example: catoptric simulate data/paper/paraboloid.toml --set model.photons=1000000"),
@@ -110,7 +116,7 @@ struct Parser {
   }
 
   ExitCode run() {
-    if (app.got_subcommand("design")) return design_command(common);
+    if (app.got_subcommand("design")) return design_command(common, design);
     if (app.got_subcommand("simulate")) return simulate_command(common);
     if (app.got_subcommand("explain")) return explain_command(common);
     if (app.got_subcommand("landscape")) return landscape_command(common, landscape);
@@ -127,6 +133,7 @@ int finish(ExitCode code) { return static_cast<int>(code); }
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of the write, and ends with 6
   try {
     Parser parser;
     try {

@@ -5,25 +5,36 @@
 
 #include "base/atomic_file.h"
 #include "cli/stop_signal.h"
+#include "design/memory_need.h"
 #include "design/metrics.h"
 
 namespace catoptric::cli {
 namespace {
 
-std::filesystem::path prepared_folder(const CommonOptions& options) {
+std::filesystem::path prepared_folder(const CommonOptions& options, const design::Scene& scene) {
+  design::require_memory(scene);
   std::filesystem::path out = options.out_folder();
-  prepare_output_folder(out);
+  prepare_output_folder(out, report::room_for(scene));
   return out;
+}
+
+/// A large need is said before it is felt.
+void tell_memory(const design::Scene& scene) {
+  constexpr std::uint64_t worth_a_line = 1'000'000'000;
+  const design::MemoryNeed need = design::memory_need(scene);
+  if (need.bytes >= worth_a_line) fmt::print(stderr, "catoptric: memory: {}\n", need.sentence);
 }
 
 }  // namespace
 
 SceneRun::SceneRun(const CommonOptions& options)
     : scene(design::read_scene(options.input, options.overrides())),
-      out(prepared_folder(options)),
+      out(prepared_folder(options, scene)),
       line(options.quiet, design::unit(scene.search.metric)),
       control{&stop_on_signal(), [this](const design::Progress& progress) { line.show(progress); }},
-      limit_(scene.threads) {}
+      limit_(scene.threads) {
+  if (!options.quiet) tell_memory(scene);
+}
 
 void SceneRun::print_files(const report::WrittenFiles& files) const {
   for (const std::string& note : scene.profile_notes) fmt::print("note: {}\n", note);

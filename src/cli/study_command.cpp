@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/scene_run.h"
 #include "cli/stop_signal.h"
+#include "design/memory_need.h"
 #include "design/metrics.h"
 #include "report/result_json.h"
 
@@ -19,7 +20,7 @@ report::StudyRow run_one(const design::Study& study, const design::StudyRun& run
   report::StudyRow row{run, std::move(scene), {}, {}, ""};
   const design::ThreadLimit limit(row.scene->threads);
   try {
-    prepare_output_folder(folder);
+    prepare_output_folder(folder, report::room_for(*row.scene));
     if (study.designs)
       row.designed = design::run_design(*row.scene, control);
     else
@@ -73,10 +74,14 @@ ExitCode exit_code(const std::vector<report::StudyRow>& rows, bool interrupted) 
 ExitCode study_command(const CommonOptions& options) {
   const design::Study list = design::read_study(options.input);
   std::vector<design::Scene> scenes;  // all are checked before the first one runs
-  for (const design::StudyRun& run : list.runs)
+  for (const design::StudyRun& run : list.runs) {
     scenes.push_back(design::study_scene(run, options.overrides()));
+    design::require_memory(scenes.back());
+  }
   const std::filesystem::path out = options.out_folder();
-  prepare_output_folder(out);
+  std::uint64_t room = 0;
+  for (const design::Scene& scene : scenes) room += report::room_for(scene);
+  prepare_output_folder(out, room);
 
   const auto begin = std::chrono::steady_clock::now();
   ProgressLine line(options.quiet, design::unit(scenes.front().search.metric));

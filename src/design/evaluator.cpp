@@ -1,11 +1,13 @@
 #include "design/evaluator.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "base/contract.h"
 #include "base/ordered_sum.h"
 #include "design/stage.h"
+#include "sim/photon_fields.h"
 #include "sim/rings.h"
 #include "sim/tubes.h"
 
@@ -69,12 +71,10 @@ double mean(std::span<const double> values) {
 Evaluation evaluate_by_photons(const Scene& scene, const Stage& stage,
                                std::span<const sim::FieldSample> samples, std::uint64_t stream) {
   const sim::EstimateOptions& full = scene.model.estimate;
-  sim::TracedPhotons photons = sim::trace_photons(stage.scene, photon_options(scene, stream),
-                                                  sim::recording_margin_mm(scene.near_field, full));
-  const sim::PhotonMap map(scene.near_field, std::move(photons));
-  sim::MapEstimate wide = map.estimate(samples, full);
-  std::vector<double> sharp =
-      extrapolated(wide.irradiance, map.estimate(samples, half_area(full)).irradiance);
+  sim::PhotonFields photons = sim::photon_fields(stage.scene, samples, photon_options(scene, stream),
+                                                 std::array{full, half_area(full)});
+  sim::MapEstimate& wide = photons.estimates.front();
+  std::vector<double> sharp = extrapolated(wide.irradiance, photons.estimates.back().irradiance);
   return {sim::Rung::photons,
           sim::direct_field(stage.scene, samples),
           std::move(wide.irradiance),
@@ -146,12 +146,9 @@ std::vector<double> total_by_rung(const Scene& scene, sim::Rung rung, const Cand
     return sum(direct, ring_photons(scene, stage.scene, stream)
                            .smoothed(sim::ring_radii_mm(scene.near_field, samples),
                                      *scene.model.estimate.kernel_radius_mm));
-  sim::TracedPhotons photons =
-      sim::trace_photons(stage.scene, photon_options(scene, stream),
-                         sim::recording_margin_mm(scene.near_field, scene.model.estimate));
-  return sum(direct, sim::PhotonMap(scene.near_field, std::move(photons))
-                         .estimate(samples, scene.model.estimate)
-                         .irradiance);
+  const sim::PhotonFields photons = sim::photon_fields(stage.scene, samples, photon_options(scene, stream),
+                                                       std::array{scene.model.estimate});
+  return sum(direct, photons.estimates.front().irradiance);
 }
 
 Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Candidate& candidate,

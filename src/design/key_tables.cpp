@@ -1,5 +1,6 @@
 #include "base/tolerance.h"
 #include "design/keys.h"
+#include "sim/emission.h"
 #include "sim/source.h"
 
 namespace catoptric::design {
@@ -92,7 +93,7 @@ const std::vector<Key>& scene_table() {
       {.path = "model.engine", .type = choice, .choices = {"auto", "meridian", "occt", "mesh"}, .standard = "\"auto\"", .meaning = "how rays meet the mirror: meridian, exact and fast; occt, the slow reference; mesh, triangles refined by Newton"},
       {.path = "model.chord_error", .type = number, .least = 1e-6, .greatest = 0.05, .standard = "0.0001", .meaning = "engine mesh: greatest distance of a triangle from the mirror, over the mirror's diagonal"},
       {.path = "model.newton_tolerance", .type = number, .least = 0, .greatest = 1, .least_excluded = true, .standard = "1e-14", .meaning = "engine mesh: how near a refined hit comes to the mirror, over its diagonal; from chord_error on nothing is refined"},
-      {.path = "model.photons", .type = integer, .least = 0, .greatest = 1e10, .standard = "100000", .meaning = "photons emitted for one evaluation; Sobol points are evenest at a power of two"},
+      {.path = "model.photons", .type = integer, .least = 0, .greatest = sim::most_photons, .standard = "100000", .meaning = "photons emitted for one evaluation; Sobol points are evenest at a power of two"},
       {.path = "model.neighbours", .type = integer, .least = 1, .greatest = 1e9, .meaning = "photons in one estimate (the paper's N); not together with kernel_radius"},
       {.path = "model.kernel_radius", .type = number, .quantity = Q::length, .least = 0, .greatest = far, .least_excluded = true, .meaning = "fixed radius of the kernel; a tenth of the near field's half-width when both are left out"},
       {.path = "model.kernel", .type = choice, .choices = {"silverman", "epanechnikov", "cone", "gaussian", "constant"}, .standard = "\"silverman\"", .meaning = "weight of a photon by its distance"},

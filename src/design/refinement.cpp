@@ -37,7 +37,7 @@ Scene next_scene(const Scene& scene, const Scene& last, Profile profile, const o
 
 /// A later stage's outcome behind what came before.
 void append(optim::Outcome& all, optim::Outcome stage, const std::string& step) {
-  stage.history.front().move = step;
+  if (!stage.history.empty()) stage.history.front().move = step;
   for (optim::Iterate& each : stage.history) {
     each.k += all.successes;
     each.iteration += all.iterations;

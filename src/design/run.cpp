@@ -6,8 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/errors.h"
+#include "design/brief.h"
 #include "design/design_space.h"
 #include "design/evaluator.h"
+#include "design/memory_need.h"
 #include "design/metrics.h"
 #include "design/search.h"
 #include "design/search_paths.h"
@@ -62,6 +65,17 @@ sim::Rung rung_for(const Scene& scene, const LandscapeSpec& spec, const SceneFam
   return rung;
 }
 
+/// A verdict by fresh photons; by few of them once the user has stopped the run.
+Judgement verdict(const Scene& scene, const Target& target, const Candidate& candidate,
+                  const RunControl& control) {
+  try {
+    if (!control.stopped()) return judge(scene, target, candidate, sim::Rung::photons, verdict_stream);
+  } catch (const Interrupted&) {
+  }
+  const InBrief brief = in_brief(scene, target);
+  return judge(brief.scene, brief.target, candidate, sim::Rung::photons, verdict_stream);
+}
+
 }  // namespace
 
 SceneFamily family_of(const Scene& scene) {
@@ -79,12 +93,14 @@ Candidate start_candidate(const Scene& scene) {
   return std::move(*candidate);
 }
 
-DesignResult run_design(const Scene& scene, const RunControl& control) {
+DesignResult run_design(const Scene& given, const RunControl& control) {
+  const Scene scene = stoppable(given, control.stop);
   if (scene.variables.empty() && scene.search.method != "none")
     throw scene.settings.error("variables", "there is nothing to search",
                                "design moves at least one variable",
                                "[variables.w1] with step, lower and upper");
   need_target(scene, "design");
+  require_memory(scene);
   const Candidate start = start_candidate(scene);
   const SceneFamily family = family_of(scene);
   sim::Plan plan = make_plan(scene, family);
@@ -97,11 +113,11 @@ DesignResult run_design(const Scene& scene, const RunControl& control) {
   const double search_seconds = watch.seconds();
   const Candidate best = family_of(found.last).at(outcome.best).value_or(start);
   control.tell({"verify", 1.0, outcome.value < infeasible_floor ? outcome.value : NAN, outcome.evaluations});
-  Judgement start_judgement = judge(scene, target, start, sim::Rung::photons, verdict_stream);
+  Judgement start_judgement = verdict(scene, target, start, control);
   Judgement best_judgement = scene.accuracy_rel
-                                 ? judge_to_accuracy(scene, make_sharp_target(scene), best, verdict_stream,
+                                 ? judge_to_accuracy(given, make_sharp_target(given), best, verdict_stream,
                                                      true, watch_accuracy(scene, control, "verify"))
-                                 : judge(scene, target, best, sim::Rung::photons, verdict_stream);
+                                 : verdict(scene, target, best, control);
   std::uint64_t photons = emitted(start_judgement) + emitted(best_judgement);
   if (plan.rung != sim::Rung::tubes)
     photons += scene.model.photons.photons * static_cast<std::uint64_t>(outcome.evaluations);
@@ -127,15 +143,17 @@ sim::Plan simulation_plan(const Scene& scene, const Candidate& candidate) {
 }
 
 SimulationResult run_simulation(const Scene& scene, const RunControl& control) {
+  require_memory(scene);
   const Stopwatch watch;
   const Candidate start = start_candidate(scene);
   sim::Plan plan = simulation_plan(scene, start);
   Target target = scene.accuracy_rel ? make_sharp_target(scene) : make_target(scene);
   if (!target.irradiance_w_per_mm2.empty()) require_metric(scene, target);
   control.tell({"simulate", 0.0, std::numeric_limits<double>::quiet_NaN(), 0});
-  Judgement judgement = scene.accuracy_rel ? judge_to_accuracy(scene, target, start, verdict_stream, false,
-                                                               watch_accuracy(scene, control, "simulate"))
-                                           : judge(scene, target, start, plan.rung, verdict_stream);
+  Judgement judgement = scene.accuracy_rel
+                            ? judge_to_accuracy(scene, target, start, verdict_stream, false,
+                                                watch_accuracy(scene, control, "simulate"))
+                            : judge(stoppable(scene, control.stop), target, start, plan.rung, verdict_stream);
   const std::uint64_t photons = emitted(judgement);
   return {std::move(target),
           std::move(plan),
@@ -145,11 +163,13 @@ SimulationResult run_simulation(const Scene& scene, const RunControl& control) {
           watch.seconds()};
 }
 
-Landscape run_landscape(const Scene& scene, const RunControl& control) {
+Landscape run_landscape(const Scene& given, const RunControl& control) {
+  const Scene scene = stoppable(given, control.stop);
   need_target(scene, "landscape");
   if (!scene.landscape)
     throw scene.settings.error("landscape.variables", "is missing", "landscape needs one or two variables",
                                "landscape.variables = [\"w1\", \"r2\"] with lower, upper and steps");
+  require_memory(scene);
   const Stopwatch watch;
   const LandscapeSpec& spec = *scene.landscape;
   Landscape result{spec.variables, {}, {}, {}, 0};
@@ -172,7 +192,7 @@ Landscape run_landscape(const Scene& scene, const RunControl& control) {
   double best = std::numeric_limits<double>::quiet_NaN();
   for (double a : result.axes[0])
     for (double b : second) {
-      if (control.stopped()) throw Error(ExitCode::interrupted, {"interrupted", "", "", ""});
+      if (control.stopped()) throw Interrupted();
       std::vector<double> x{a};
       if (result.axes.size() > 1) x.push_back(b);
       const double value = value_at(scene, rung, target, family, x);

@@ -11,6 +11,7 @@
 #include "design/scene.h"
 #include "design/target.h"
 #include "optim/outcome.h"
+#include "optim/search_tape.h"
 
 namespace catoptric::design {
 
@@ -23,10 +24,12 @@ struct Progress {
   std::string note = {};  ///< what else there is to tell
 };
 
-/// What a caller may do to a run: stop it, and watch it. Both may be left empty.
+/// What a caller may do to a run: stop it, watch it, and keep what its search was told. All may be left
+/// empty.
 struct RunControl {
   const std::atomic<bool>* stop = nullptr;
-  std::function<void(const Progress&)> watch;
+  std::function<void(const Progress&)> watch = {};
+  optim::SearchTape* tape = nullptr;  ///< of design; goes on where a tape with answers was broken off
   bool stopped() const { return stop && stop->load(std::memory_order_relaxed); }
   void tell(const Progress& progress) const {
     if (watch) watch(progress);
@@ -59,8 +62,10 @@ struct DesignResult {
 /// cheapest that is valid with a bandwidth of the program's choice.
 sim::Plan simulation_plan(const Scene& scene, const Candidate& candidate);
 
-/// Searches the scene's variables and judges start and best on fresh streams.
-/// @fails InputError when there is nothing to search or to aim at
+/// Searches the scene's variables and judges start and best on fresh streams. When the user stops it, photons
+/// in flight are given up, and start and best so far are judged with fewer photons, for the user waits.
+/// @fails InputError when there is nothing to search or to aim at, the scene would not fit into memory, or
+///        the control's tape is another search's
 DesignResult run_design(const Scene& scene, const RunControl& control);
 
 /// What `simulate` found: the scene as it stands, its variables at their start.

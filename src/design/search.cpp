@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "design/brief.h"
 #include "design/constraints.h"
 #include "design/evaluator.h"
 #include "design/far_field.h"
@@ -51,7 +52,7 @@ optim::Outcome search_coarse_to_fine(const Scene& scene, sim::Rung rung, const T
   const SceneFamily family = family_of(scene);
   optim::Outcome all{};
   all.best = starts(scene.variables);
-  all.start_value = value_at(scene, rung, target, family, all.best);
+  all.start_value = light_problem(scene, rung, target, family, control).evaluate(all.best);
   all.evaluations = 1;
   const std::vector<double> start = all.best;
   const std::size_t stages = scene.search.kernels_mm.size() + 1;
@@ -72,10 +73,11 @@ optim::Outcome search_coarse_to_fine(const Scene& scene, sim::Rung rung, const T
     }
   }
   if (control.stopped()) {  // in whatever stage: its value is no figure of this scene
+    const InBrief brief = in_brief(scene, target);
     all.ending = optim::Ending::stopped;
     all.sentence = "stopped on request";
-    all.value = value_at(scene, rung, target, family, all.best);
-    ++all.evaluations;
+    all.value = value_at(brief.scene, rung, brief.target, family, all.best);
+    all.start_value = value_at(brief.scene, rung, brief.target, family, start);
   }
   if (!(all.value <= all.start_value)) {
     all.best = start;
@@ -86,15 +88,32 @@ optim::Outcome search_coarse_to_fine(const Scene& scene, sim::Rung rung, const T
 }
 
 /// No search: what there is, judged.
-optim::Outcome as_it_starts(const Scene& scene, sim::Rung rung, const Target& target) {
+optim::Outcome as_it_starts(const Scene& scene, sim::Rung rung, const Target& target,
+                            const RunControl& control) {
   optim::Outcome outcome{};
   outcome.ending = optim::Ending::converged;
   outcome.sentence = "not searched: the mirror is judged as it starts";
   outcome.best = starts(scene.variables);
-  outcome.value = outcome.start_value = value_at(scene, rung, target, family_of(scene), outcome.best);
+  const SceneFamily family = family_of(scene);
+  outcome.value = outcome.start_value =
+      light_problem(scene, rung, target, family, control).evaluate(outcome.best);
   outcome.evaluations = 1;
   outcome.history.push_back({0, 0, 1, 1, "start", outcome.best, outcome.value});
   return outcome;
+}
+
+/// @fails InputError as search()
+optim::Outcome search_by_method(const Scene& scene, sim::Rung rung, const Target& target,
+                                const RunControl& control) {
+  if (scene.search.method == "none") return as_it_starts(scene, rung, target, control);
+  if (scene.search.method == "levenberg-marquardt") require_fit(scene, rung);
+  const long kernels = static_cast<long>(scene.search.kernels_mm.size());
+  if (kernels > 0 && scene.search.most_evaluations <= kernels + 1)
+    throw scene.settings.error("search.most_evaluations", "leaves nothing for each kernel",
+                               "every kernel needs evaluations of its own",
+                               "fewer search.kernels, or more evaluations");
+  if (kernels > 0) return search_coarse_to_fine(scene, rung, target, control);
+  return search_once(scene, rung, target, control);
 }
 
 }  // namespace
@@ -128,15 +147,13 @@ double value_at(const Scene& scene, sim::Rung rung, const Target& target, const 
 }
 
 optim::Outcome search(const Scene& scene, sim::Rung rung, const Target& target, const RunControl& control) {
-  if (scene.search.method == "none") return as_it_starts(scene, rung, target);
-  if (scene.search.method == "levenberg-marquardt") require_fit(scene, rung);
-  const long kernels = static_cast<long>(scene.search.kernels_mm.size());
-  if (kernels > 0 && scene.search.most_evaluations <= kernels + 1)
-    throw scene.settings.error("search.most_evaluations", "leaves nothing for each kernel",
-                               "every kernel needs evaluations of its own",
-                               "fewer search.kernels, or more evaluations");
-  if (kernels > 0) return search_coarse_to_fine(scene, rung, target, control);
-  return search_once(scene, rung, target, control);
+  optim::Outcome outcome = search_by_method(scene, rung, target, control);
+  // A library that was told nothing at its first evaluation cannot know why.
+  if (control.stopped() && !std::isfinite(outcome.value)) {
+    outcome.ending = optim::Ending::stopped;
+    outcome.sentence = "stopped on request before there was a value";
+  }
+  return outcome;
 }
 
 }  // namespace catoptric::design

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/errors.h"
 #include "design/constraints.h"
 #include "design/search.h"
 #include "optim/hooke_jeeves.h"
@@ -59,7 +60,7 @@ optim::Outcome by_hooke_jeeves(const SearchSpec& spec, const optim::StartedSearc
 }
 
 optim::Outcome by_fit(const Scene& scene, const Target& target, const optim::StartedSearch& one,
-                      Telling& telling) {
+                      Telling& telling, optim::SearchTape* tape) {
   optim::LevenbergMarquardtOptions options;
   options.most_evaluations = one.limits.most_evaluations;
   options.most_iterations = scene.search.most_iterations;
@@ -71,7 +72,7 @@ optim::Outcome by_fit(const Scene& scene, const Target& target, const optim::Sta
   options.stop_requested = one.limits.stop_requested;
   optim::LeastSquaresProblem problem = fit_problem(scene, target);
   problem.variables = one.problem.variables;
-  return optim::levenberg_marquardt(problem, options);
+  return optim::levenberg_marquardt(tape ? optim::remembering(problem, *tape) : problem, options);
 }
 
 std::optional<optim::PagmoMethod> pagmo_method(const std::string& method) {
@@ -87,9 +88,9 @@ std::optional<optim::PagmoMethod> pagmo_method(const std::string& method) {
 }
 
 optim::Outcome by_method(const Scene& scene, const Target& target, const optim::StartedSearch& one,
-                         Telling& telling) {
+                         Telling& telling, optim::SearchTape* tape) {
   const SearchSpec& spec = scene.search;
-  if (spec.method == "levenberg-marquardt") return by_fit(scene, target, one, telling);
+  if (spec.method == "levenberg-marquardt") return by_fit(scene, target, one, telling, tape);
   if (spec.method == "nelder-mead") return optim::nelder_mead(one.problem, {.limits = one.limits});
   if (const auto method = pagmo_method(spec.method))
     return optim::pagmo_search(one.problem, *method,
@@ -102,19 +103,34 @@ optim::Outcome by_method(const Scene& scene, const Target& target, const optim::
 
 }  // namespace
 
+optim::Problem light_problem(const Scene& scene, sim::Rung rung, const Target& target,
+                             const SceneFamily& family, const RunControl& control) {
+  const optim::Problem light{scene.variables, [&, rung](std::span<const double> x) {
+                               return value_at(scene, rung, target, family, x);
+                             }};
+  const optim::Problem remembered = control.tape ? optim::remembering(light, *control.tape) : light;
+  return {scene.variables, [evaluate = remembered.evaluate](std::span<const double> x) {
+            try {
+              return evaluate(x);
+            } catch (const Interrupted&) {
+              return std::numeric_limits<double>::infinity();
+            }
+          }};
+}
+
 optim::Outcome search_once(const Scene& scene, sim::Rung rung, const Target& target,
                            const RunControl& control) {
   const SceneFamily family = family_of(scene);
   Telling telling(scene, control);
-  const optim::Problem problem{scene.variables, [&](std::span<const double> x) {
-                                 return telling.evaluated(value_at(scene, rung, target, family, x));
-                               }};
+  const optim::Problem light = light_problem(scene, rung, target, family, control);
+  const optim::Problem problem{
+      scene.variables, [&](std::span<const double> x) { return telling.evaluated(light.evaluate(x)); }};
   optim::SearchLimits limits;
   limits.most_evaluations = scene.search.most_evaluations;
   if (scene.search.reach) limits.reach = *scene.search.reach;
   limits.stop_requested = [&] { return control.stopped(); };
   const auto one_search = [&](const optim::StartedSearch& one) {
-    return by_method(scene, target, one, telling);
+    return by_method(scene, target, one, telling, control.tape);
   };
   if (scene.search.restarts == 0) return one_search({problem, limits, scene.seed});
   return optim::multi_start(problem, one_search,

@@ -10,6 +10,12 @@
 
 namespace catoptric::design {
 
+/// The objective as searches ask for it: answers are remembered where the control has a tape, and an
+/// evaluation that the user broke off has no value: infinity, which is not remembered.
+/// @in    all but `rung` outlive the result
+optim::Problem light_problem(const Scene& scene, sim::Rung rung, const Target& target,
+                             const SceneFamily& family, const RunControl& control);
+
 /// One search with one kernel, restarts included.
 optim::Outcome search_once(const Scene& scene, sim::Rung rung, const Target& target,
                            const RunControl& control);

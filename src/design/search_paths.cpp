@@ -79,7 +79,7 @@ std::vector<SearchPath> search_paths(const Scene& scene, const Target& target, c
   std::vector<SearchPath> paths;
   for (std::size_t i = 0; i < begun.size(); ++i) {
     paths.push_back(path_of(name_of(i), begun[i], search(begun[i], rung, target, control), places));
-    if (control.stopped()) throw Error(ExitCode::interrupted, {"interrupted", "", "", ""});
+    if (control.stopped()) throw Interrupted();
   }
   return paths;
 }

@@ -34,7 +34,7 @@ class ToleranceSearch {
     double enough = 0, too_much = most * (1 + 1e-12), trial = std::min(deviation_.first_guess, most);
     std::optional<Tolerated> nearest;
     for (int i = 0; i < most_trials; ++i) {
-      if (control_.stopped()) throw Error(ExitCode::interrupted, {"interrupted", "", "", ""});
+      if (control_.stopped()) throw Interrupted();
       const auto changes = changer_.changes(deviation_, sign * trial, rung_);
       if (!changes) {
         too_much = trial;

@@ -59,7 +59,7 @@ struct Sensitivity {
 /// central differences. Each is computed by the cheapest rung valid for the deviated scene; with photons the
 /// same random numbers are used with and without the deviation, in `model.replicates` independent
 /// repetitions, and noise is taken off what eq. 7 counts as change.
-/// @fails InputError as a simulation of the scene; Error with ExitCode::interrupted when stopped
+/// @fails InputError as a simulation of the scene; Interrupted
 /// @error a tolerance costs what is allowed to 0.5 %, with photons to their noise, which is stated
 Sensitivity run_sensitivity(const Scene& scene, const RunControl& control);
 

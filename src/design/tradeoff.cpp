@@ -1,4 +1,5 @@
 #include "design/tradeoff.h"
+#include "design/memory_need.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 
 #include "design/evaluator.h"
 #include "design/judge.h"
+#include "design/memory_need.h"
 #include "design/stage.h"
 #include "design/thread_limit.h"
 #include "sim/closed_forms.h"
@@ -43,7 +45,7 @@ Truth find_truth(const Scene& scene, const Profile& profile, std::span<const sim
   request.photons = scene.model.photons;
   request.photons.sampler = sim::Sampler::sobol;
   request.photons.stream = truth_stream;
-  request.most_photons = 50 * scene.tradeoff.most_photons;
+  request.most_photons = std::min(50 * scene.tradeoff.most_photons, photons_that_fit());
   const sim::AccurateField field = sim::reach_accuracy(stage.scene, samples, request);
   return {field.rung == sim::Rung::tubes
               ? fmt::format("ray tubes, {} rays", field.rays)
@@ -207,6 +209,10 @@ Tradeoff run_tradeoff(const Scene& written, const RunControl& control) {
                       "errors are relative to its irradiance", "aim the mirror at the near field"});
   const std::vector<TradeSetting> settings = trade_settings(scene, profile);
   for (std::size_t i = 0; i < settings.size() && !control.stopped(); ++i) {
+    if (!fits_memory(with_setting(scene, settings[i]))) {
+      trade.left_out.push_back(words(scene, settings[i]) + ": would not fit into memory");
+      continue;
+    }
     const double expected = expected_seconds(trade.rows, settings[i]);
     if (expected > scene.tradeoff.seconds) {
       trade.left_out.push_back(fmt::format("{}: about {:.2g} s an evaluation, tradeoff.seconds is {:g}",

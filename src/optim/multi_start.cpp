@@ -80,6 +80,11 @@ Outcome multi_start(const Problem& problem, const std::function<Outcome(const St
     all.sentence = one.sentence;
     merge(all, std::move(one));
     if (all.ending == Ending::target_reached || all.ending == Ending::stopped) break;
+    if (options.limits.stop_requested && options.limits.stop_requested()) {
+      all.ending = Ending::stopped;
+      all.sentence = "stopped on request";
+      break;
+    }
     if (all.evaluations >= options.limits.most_evaluations) {
       all.ending = Ending::evaluation_limit;
       all.sentence = fmt::format("stopped by the limit of {} evaluations", all.evaluations);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@ struct WrittenFiles {
   std::vector<std::string> names;
   std::vector<std::string> notes;  ///< e.g. that plots were left out since gnuplot is missing
 };
+
+/// Room on the disk that a run of the scene asks for before it begins: about twice what it writes.
+std::uint64_t room_for(const design::Scene& scene);
 
 /// `result.json`, `irradiance.csv`, `convergence.csv`, `reflector.step`, `reflector.igs`, `scene.toml`,
 /// `report.html` and the plots. Each file is written whole or not at all.

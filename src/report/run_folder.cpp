@@ -27,7 +27,7 @@ void RunFolder::exchange(const std::string& name, const Profile& profile, const 
 
 std::vector<DrawnFigure> RunFolder::draw_all(const std::vector<NamedFigure>& figures) {
   const std::filesystem::path folder = path_ / "figures";
-  prepare_output_folder(folder);
+  prepare_output_folder(folder, 0);
   // One gnuplot a figure, all at once: they spend half of their time starting.
   std::vector<std::future<Drawing>> drawings;
   for (const NamedFigure& figure : figures)

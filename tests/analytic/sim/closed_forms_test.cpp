@@ -52,8 +52,8 @@ void check_field(const Reflector& mirror, const PointSource& source, double kern
         test::smoothed(Kernel::silverman, kernel_radius, near_field.to_plane(sample.point_mm), field));
     stronger.push_back(1.03 * expected.back());
   }
-  CHECK(test::z_test_p(got.reflected, expected, got.noise) > test::level);
-  CHECK(test::z_test_p(got.reflected, stronger, got.noise) < test::level);
+  CHECK(test::plausible(test::z_test_p(got.reflected, expected, got.noise)));
+  CHECK(test::rejected(test::z_test_p(got.reflected, stronger, got.noise)));
   CHECK(got.counts.interactions == got.counts.met_mirror);  // the closed forms are those of one bounce
 }
 
@@ -198,9 +198,9 @@ TEST_CASE("closed sphere: interactions are a geometric series") {
     // The first meeting is survived by all, with the power that survives: what follows is the series.
     const double mean = static_cast<double>(traced.counts.interactions) / count - 1;
     const double deviation = std::sqrt(reflectance / count) / (1 - reflectance);
-    CHECK(test::normal_p((mean - 1 / (1 - reflectance)) / deviation) > test::level);
+    CHECK(test::plausible(test::normal_p((mean - 1 / (1 - reflectance)) / deviation)));
     const double wrong = reflectance + 0.03 * (1 - reflectance);  // 3 % less absorption
-    CHECK(test::normal_p((mean - 1 / (1 - wrong)) / deviation) < test::level);
+    CHECK(test::rejected(test::normal_p((mean - 1 / (1 - wrong)) / deviation)));
   }
 }
 
@@ -213,7 +213,7 @@ TEST_CASE("sphere with a leak: the light that passes it is a geometric series to
                                 photons(static_cast<std::uint64_t>(count)), 0);
   const double expected = transmittance / (1 - reflectance);
   const double deviation = std::sqrt(expected * (1 - expected) / count);
-  CHECK(test::normal_p((traced.energy.escaped_w / power - expected) / deviation) > test::level);
+  CHECK(test::plausible(test::normal_p((traced.energy.escaped_w / power - expected) / deviation)));
 }
 
 TEST_CASE("a diffuse floor under a black dome: each photon that falls goes on to the dome") {
@@ -227,7 +227,7 @@ TEST_CASE("a diffuse floor under a black dome: each photon that falls goes on to
   const double falls = 0.5 * (1 - 20 / std::hypot(20, 50));
   const double deviation = std::sqrt(falls * (1 - falls) / count);
   const double seen = static_cast<double>(traced.counts.interactions) / count - 1;
-  CHECK(test::normal_p((seen - falls) / deviation) > test::level);
+  CHECK(test::plausible(test::normal_p((seen - falls) / deviation)));
 }
 
 TEST_CASE("direct light: eq. 13 for tilted planes, dark behind the mirror and behind the sample") {

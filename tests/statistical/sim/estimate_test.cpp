@@ -89,12 +89,12 @@ TEST_CASE("the reported noise is the spread over streams, for every kernel") {
     const double ratio = spread / reported[k];  // chi-square of streams - 1
     const double tail = test::chi_square_tail(ratio, streams - 1);
     CAPTURE(name(kernels[k]), ratio);
-    CHECK(std::min(tail, 1 - tail) > test::level);
+    CHECK(test::plausible(2 * std::min(tail, 1 - tail)));
     const double wrong = test::chi_square_tail(ratio / 2.25, streams - 1);  // wrong twin: noise 1.5 times
-    CHECK(1 - wrong < test::level);
+    CHECK(test::rejected(1 - wrong));
     // unbiased: the mean over streams is the smoothed field
     const double expected = test::smoothed(kernels[k], 8.0, {20, 10}, eq12);
-    CHECK(test::normal_p((mean - expected) / std::sqrt(reported[k] / streams)) > test::level);
+    CHECK(test::plausible(test::normal_p((mean - expected) / std::sqrt(reported[k] / streams))));
   }
 }
 
@@ -200,8 +200,8 @@ TEST_CASE("a source off the axis: aimed emission gives the field of emission in 
     noise.push_back(std::hypot(aimed.noise[i], all.noise[i]));
     stronger.push_back(1.03 * all.reflected[i]);
   }
-  CHECK(test::z_test_p(aimed.reflected, all.reflected, noise) > test::level);
-  CHECK(test::z_test_p(aimed.reflected, stronger, noise) < test::level);
+  CHECK(test::plausible(test::z_test_p(aimed.reflected, all.reflected, noise)));
+  CHECK(test::rejected(test::z_test_p(aimed.reflected, stronger, noise)));
 }
 
 TEST_CASE("the nearest N of Sobol photons give a tenth of the error of random ones") {

@@ -80,9 +80,9 @@ TEST_CASE("emission fills the projection map evenly") {
       return test::chi_square_p(got, want);
     };
     CAPTURE(source.transpose());
-    CHECK(run([&](double a, double b) { return map.direction(a, b); }) > test::level);
+    CHECK(test::plausible(run([&](double a, double b) { return map.direction(a, b); })));
     // wrong twin: even in the angle instead of its cosine
-    CHECK(run([&](double a, double b) { return map.direction(std::sin(0.5 * pi * a), b); }) < test::level);
+    CHECK(test::rejected(run([&](double a, double b) { return map.direction(std::sin(0.5 * pi * a), b); })));
   }
 }
 
@@ -91,8 +91,8 @@ TEST_CASE("Russian roulette has the frequencies of the material") {
   const auto counts = counts_of(3, 100'000, [&](RandomStream& stream) {
     return static_cast<std::size_t>(roulette(material, stream.uniform()));
   });
-  CHECK(test::chi_square_p(counts, {20'000, 70'000, 10'000}) > test::level);
-  CHECK(test::chi_square_p(counts, {21'000, 69'000, 10'000}) < test::level);
+  CHECK(test::plausible(test::chi_square_p(counts, {20'000, 70'000, 10'000})));
+  CHECK(test::rejected(test::chi_square_p(counts, {21'000, 69'000, 10'000})));
   CHECK(roulette({1, 0}, 1 - 0x1p-53) == Interaction::reflected);
   CHECK(roulette({0, 0}, 0) == Interaction::absorbed);
   CHECK(roulette({0, 1}, 1 - 0x1p-53) == Interaction::transmitted);
@@ -110,8 +110,8 @@ TEST_CASE("diffuse reflection follows the cosine law into the normal's side") {
       return 16 * bin(share_of_cosine(direction.dot(normal)), 20) + bin(azimuth, 16);
     }));
   };
-  CHECK(run([](double cosine) { return cosine * cosine; }) > test::level);
-  CHECK(run([](double cosine) { return cosine; }) < test::level);  // the law of an even hemisphere
+  CHECK(test::plausible(run([](double cosine) { return cosine * cosine; })));
+  CHECK(test::rejected(run([](double cosine) { return cosine; })));  // the law of an even hemisphere
 }
 
 TEST_CASE("near-field samples are uniform by area") {
@@ -126,30 +126,62 @@ TEST_CASE("near-field samples are uniform by area") {
     }
     return test::chi_square_even_p(counts);
   };
-  CHECK(ring_counts([](double r) { return r * r; }) > test::level);
-  CHECK(ring_counts([](double r) { return r; }) < test::level);
+  CHECK(test::plausible(ring_counts([](double r) { return r * r; })));
+  CHECK(test::rejected(ring_counts([](double r) { return r; })));
   const auto rectangle = NearField::rectangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 300, 100);
   std::vector<double> counts(15 * 5, 0);
   for (const FieldSample& sample : rectangle.samples(7500)) {
     const Vector2 at = rectangle.to_plane(sample.point_mm);
     counts[5 * bin(at.x() / 300 + 0.5, 15) + bin(at.y() / 100 + 0.5, 5)] += 1;
   }
-  CHECK(test::chi_square_even_p(counts) > test::level);
+  CHECK(test::plausible(test::chi_square_even_p(counts)));
 }
 
 TEST_CASE("every scrambled Sobol coordinate is uniform over the keys") {
   // one point of the sequence under many scramblings: what makes replicates unbiased
+  struct Ps {
+    double alone, pairs;
+  };
+  const auto judge = [](std::uint64_t photon, std::size_t axis, const auto& key_of) {
+    std::vector<double> counts(64, 0), pairs(64, 0);
+    for (std::uint64_t stream = 0; stream < 20'000; ++stream) {
+      const auto numbers = test::emission_points(Sampler::sobol, key_of(stream), photon, 2);
+      const double first = numbers[0][axis], second = numbers[1][axis];
+      counts[bin(first, 64)] += 1;
+      // digits 7 to 9 of one photon and 4 to 6 of the next: independent, too
+      pairs[8 * bin(std::fmod(first * 64, 1.0), 8) + bin(std::fmod(second * 8, 1.0), 8)] += 1;
+    }
+    return Ps{test::chi_square_even_p(counts), test::chi_square_even_p(pairs)};
+  };
   for (std::uint64_t photon : {0u, 1u, 12345u})
     for (std::size_t axis = 0; axis < 4; ++axis) {
-      std::vector<double> counts(64, 0), pairs(64, 0);
-      for (std::uint64_t stream = 0; stream < 20'000; ++stream) {
-        const auto numbers = test::emission_points(Sampler::sobol, photon_key(1, stream), photon, 2);
-        const double first = numbers[0][axis], second = numbers[1][axis];
-        counts[bin(first, 64)] += 1;
-        // digits 7 to 9 of one photon and 4 to 6 of the next: independent, too
-        pairs[8 * bin(std::fmod(first * 64, 1.0), 8) + bin(std::fmod(second * 8, 1.0), 8)] += 1;
-      }
-      CHECK(test::chi_square_even_p(counts) > test::level);
-      CHECK(test::chi_square_even_p(pairs) > test::level);
+      const Ps right = judge(photon, axis, [](std::uint64_t stream) { return photon_key(1, stream); });
+      CHECK(test::plausible(right.alone));
+      CHECK(test::plausible(right.pairs));
     }
+  // wrong twin: half of the streams share a key, so that replicates repeat each other
+  const Ps wrong =
+      judge(1, 0, [](std::uint64_t stream) { return photon_key(1, stream % 2 == 0 ? 0 : stream); });
+  CHECK(test::rejected(wrong.alone));
+  CHECK(test::rejected(wrong.pairs));
+}
+
+TEST_CASE("photons of one Sobol set lie more evenly than chance in every pair of coordinates") {
+  constexpr std::uint64_t photons = 4096;
+  for (const Sampler sampler : {Sampler::sobol, Sampler::random}) {
+    const auto numbers = test::emission_points(sampler, photon_key(3, 5), 0, photons);
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = a + 1; b < 4; ++b) {
+        std::vector<double> counts(256, 0);
+        for (const auto& point : numbers) counts[16 * bin(point[a], 16) + bin(point[b], 16)] += 1;
+        double square = 0;
+        for (const double count : counts) square += (count - 16) * (count - 16) / 16;
+        CAPTURE(static_cast<int>(sampler), a, b, square);
+        // random points: chi-square of 255 degrees, 255 +- 23; a two-dimensional net has 0
+        if (sampler == Sampler::random)
+          CHECK(test::plausible(test::variance_ratio_p(square / 255, 255)));
+        else
+          CHECK(test::rejected(1 - test::chi_square_tail(square, 255)));  // chance is the wrong twin
+      }
+  }
 }

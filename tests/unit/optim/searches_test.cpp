@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
@@ -13,7 +14,7 @@
 #include "optim/multi_start.h"
 #include "optim/nelder_mead.h"
 #include "optim/pagmo_search.h"
-#include "optim/search_state.h"
+#include "optim/search_tape.h"
 
 using namespace catoptric;
 using namespace catoptric::optim;
@@ -198,23 +199,70 @@ TEST_CASE("a search broken off and resumed gives the bits of one never broken of
     INFO(name);
     Bowl whole, parts;
     const Outcome expected = search(whole.problem, evaluations(500), 4);
-    SearchState state;
-    for (const long most : {1L, 77L, 130L, 400L})
-      search(remembering(parts.problem, state), evaluations(most), 4);
-    check_same(expected, search(remembering(parts.problem, state), evaluations(500), 4));
+    std::vector<Answer> known;
+    for (const long most : {1L, 77L, 130L, 400L}) {
+      SearchTape tape(known);
+      search(remembering(parts.problem, tape), evaluations(most), 4);
+      known = tape.answers();
+    }
+    SearchTape tape(known);
+    check_same(expected, search(remembering(parts.problem, tape), evaluations(500), 4));
     CHECK(parts.calls == whole.calls);  // nothing was computed twice
+    REQUIRE(tape.best());
+    CHECK(tape.best()->x == expected.best);
+    CHECK(tape.best()->value == expected.value);
   }
 }
 
 TEST_CASE("a saved search that belongs to another one is refused") {
   Bowl bowl;
-  SearchState state;
-  pagmo_search(remembering(bowl.problem, state), PagmoMethod::cma_es, {.limits = evaluations(50), .seed = 1});
-  CHECK_THROWS_AS(pagmo_search(remembering(bowl.problem, state), PagmoMethod::cma_es,
+  SearchTape tape;
+  pagmo_search(remembering(bowl.problem, tape), PagmoMethod::cma_es, {.limits = evaluations(50), .seed = 1});
+  SearchTape saved(tape.answers());
+  CHECK_THROWS_AS(pagmo_search(remembering(bowl.problem, saved), PagmoMethod::cma_es,
                                {.limits = evaluations(50), .seed = 2}),
                   InputError);
-  state.answers.pop_back();
-  CHECK_THROWS_AS(remembering(bowl.problem, state), InputError);
+}
+
+TEST_CASE("whoever keeps a tape sees it grow by every new answer, and by none that was known") {
+  Bowl bowl;
+  std::vector<std::size_t> lengths;
+  SearchTape tape;
+  tape.grown = [&](const SearchTape& grown) {
+    CHECK(static_cast<long>(grown.answers().size()) == bowl.calls);  // before the next question
+    lengths.push_back(grown.answers().size());
+  };
+  by_hooke_jeeves(remembering(bowl.problem, tape), evaluations(20), 1);
+  REQUIRE(lengths.size() == 20);
+  CHECK(lengths.back() == 20);
+  SearchTape longer(tape.answers());
+  long grown = 0;
+  longer.grown = [&](const SearchTape&) { ++grown; };
+  by_hooke_jeeves(remembering(bowl.problem, longer), evaluations(23), 1);
+  CHECK(grown == 3);
+}
+
+TEST_CASE("what has no value is remembered as that, and is never the best") {
+  SearchTape tape;
+  CHECK(tape.best() == nullptr);
+  const Problem nowhere{{{"x", 0, 1, -9, 9}}, [](std::span<const double>) { return NAN; }};
+  CHECK(remembering(nowhere, tape).evaluate(std::array{1.0}) == infinity);
+  CHECK(tape.best() == nullptr);
+  SearchTape again(tape.answers());
+  CHECK(remembering(nowhere, again).evaluate(std::array{1.0}) == infinity);
+}
+
+TEST_CASE("restarts end when the user stops, even where the search has nothing to show") {
+  Bowl bowl;
+  bowl.problem.evaluate = [&](std::span<const double>) {
+    ++bowl.calls;
+    return infinity;
+  };
+  SearchLimits limits = evaluations(1000);
+  limits.stop_requested = [&] { return bowl.calls >= 3; };
+  const Outcome outcome = by_many_starts(bowl.problem, limits, 1);
+  CHECK(outcome.ending == Ending::stopped);
+  CHECK(bowl.calls == 3);
 }
 
 TEST_CASE("a fit can be resumed, too") {
@@ -234,13 +282,18 @@ TEST_CASE("a fit can be resumed, too") {
                                     }};
   const Outcome expected = levenberg_marquardt(problem, {});
   const long needed = std::exchange(calls, 0);
-  SearchState state;
+  SearchTape tape;
   LevenbergMarquardtOptions options;
   options.most_evaluations = 7;
-  levenberg_marquardt(remembering(problem, state), options);
+  levenberg_marquardt(remembering(problem, tape), options);
   CHECK(calls == 7);
-  check_same(expected, levenberg_marquardt(remembering(problem, state), {}));
-  CHECK(calls == needed);
+  REQUIRE(tape.answers().size() == 7);
+  CHECK(tape.answers().front().value == std::hypot(10 * (1 - 1.2 * 1.2), 2.2));
+  SearchTape resumed(tape.answers());
+  check_same(expected, levenberg_marquardt(remembering(problem, resumed), {}));
+  CHECK(static_cast<long>(resumed.answers().size()) == needed);
+  SearchTape another({{{0.5, 0.5}, 1.0}});
+  CHECK_THROWS_AS(levenberg_marquardt(remembering(problem, another), {}), InputError);
 }
 
 TEST_CASE("searches go around what cannot be built") {

@@ -1,0 +1,75 @@
+#include "design/memory_need.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "base/memory_limit.h"
+#include "design/evaluator.h"
+#include "design/run.h"
+#include "sim/photon_fields.h"
+
+namespace catoptric::design {
+namespace {
+
+constexpr std::uint64_t program_bytes = 120'000'000;  // its libraries, files on their way out, bins of rings
+/// Direct, wide, narrow, noise, bias and what they are joined from, for each replicate.
+constexpr std::uint64_t numbers_of_a_sample = 8;
+/// Photons of a proof of accuracy that are in memory at once, flight and map.
+constexpr std::uint64_t bytes_of_a_proof_photon = 22;
+
+std::string size(std::uint64_t bytes) {
+  const double megabytes = static_cast<double>(bytes) / 1e6;
+  return megabytes < 1000 ? fmt::format("{:.0f} MB", megabytes) : fmt::format("{:.3g} GB", megabytes / 1000);
+}
+
+bool proof_keeps_photons(const Scene& scene) {
+  return scene.accuracy_rel && simulation_plan(scene, start_candidate(scene)).rung == sim::Rung::photons;
+}
+
+}  // namespace
+
+MemoryNeed memory_need(const Scene& scene) {
+  const sim::EstimateOptions& bandwidth = scene.model.estimate;
+  const std::uint64_t photons = sim::photon_memory_bytes(scene.model.photons.photons, bandwidth);
+  const std::uint64_t samples = numbers_of_a_sample * sizeof(double) * scene.samples * scene.model.replicates;
+  if (proof_keeps_photons(scene)) {
+    const std::uint64_t proof = bytes_of_a_proof_photon * scene.model.most_photons;
+    const std::uint64_t bytes = program_bytes + samples + std::max(proof, photons);
+    return {bytes, fmt::format("at most {}: proving the accuracy may keep {} photons (model.most_photons)",
+                               size(bytes), scene.model.most_photons)};
+  }
+  const std::uint64_t bytes = program_bytes + samples + photons;
+  const char* why = bandwidth.neighbours
+                        ? "all photons are kept, since the nearest are only known when all are there"
+                        : "however many photons, since they are summed batch by batch";
+  return {bytes, fmt::format("at most {}: {}", size(bytes), why)};
+}
+
+std::uint64_t photons_that_fit() {
+  const auto available = available_memory_bytes();
+  if (!available) return std::numeric_limits<std::uint64_t>::max();
+  return (*available - std::min(*available, program_bytes)) / bytes_of_a_proof_photon;
+}
+
+bool fits_memory(const Scene& scene) {
+  const auto available = available_memory_bytes();
+  return !available || memory_need(scene).bytes <= *available;
+}
+
+void require_memory(const Scene& scene) {
+  const MemoryNeed need = memory_need(scene);
+  const auto available = available_memory_bytes();
+  if (!available || need.bytes <= *available) return;
+  const bool proof = proof_keeps_photons(scene);
+  throw scene.settings.error(
+      proof ? "model.most_photons" : "model.photons", "the scene would not fit into memory",
+      fmt::format("{}; {} are free", need.sentence, size(*available)),
+      proof ? "fewer photons, or a scene that rings or tubes can compute"
+      : scene.model.estimate.neighbours
+          ? "model.kernel_radius instead of model.neighbours, which takes the same for any number of photons"
+          : "fewer near_field.samples or model.replicates");
+}
+
+}  // namespace catoptric::design
