@@ -20,8 +20,8 @@ namespace {
 
 /// The part as OCCT likes it: centred on the origin and some hundred units large, since OCCT's tolerances are
 /// absolute. The factor is a power of two, so no digit of a pole changes.
-struct Model {
-  explicit Model(const Profile& profile)
+struct OcctModel {
+  explicit OcctModel(const Profile& profile)
       : centre_z_mm(0.5 * (profile.z_min_mm() + profile.z_max_mm())),
         scale(std::exp2(7 - std::ceil(std::log2(0.5 * profile.diagonal_mm())))),
         reach(1.001 * scale * 0.5 * profile.diagonal_mm()) {
@@ -45,7 +45,7 @@ struct ModelRay {
   Vector3 direction;
   long double shift_mm;  ///< distance along the given ray = shift + t / scale
 
-  ModelRay(const Ray& ray, const Model& model) : direction(ray.direction) {
+  ModelRay(const Ray& ray, const OcctModel& model) : direction(ray.direction) {
     using Wide = Eigen::Matrix<long double, 3, 1>;
     const Wide d = ray.direction.cast<long double>();
     Wide o = ray.origin_mm.cast<long double>();
@@ -63,7 +63,7 @@ struct Crossing {
 
 class OcctProbe final : public Probe {
  public:
-  explicit OcctProbe(const Model& model)
+  explicit OcctProbe(const OcctModel& model)
       : model_(model),
         surface_(new GeomAdaptor_Surface(model.surface)),
         first_(model.curve->FirstParameter()),
@@ -96,7 +96,7 @@ class OcctProbe final : public Probe {
   Vector2 tangent(double v) const;
   Hit dress(const ModelRay& line, const Crossing& crossing) const;
 
-  const Model& model_;
+  const OcctModel& model_;
   Handle(GeomAdaptor_Surface) surface_;  // caches, so one for each probe
   IntCurveSurface_HInter intersector_;
   double first_, last_;
@@ -201,7 +201,7 @@ class OcctReflector final : public Reflector {
 
  private:
   Profile profile_;
-  Model model_;
+  OcctModel model_;
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ std::vector<Vector2> corners_of(const Profile& profile) {
   return corners;
 }
 
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
+double turn(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Whether the way from the axis to the rim goes outwards and towards the mouth, ever steeper.
 bool is_bowl(const std::vector<Vector2>& corners, double outward, double slack_mm) {
@@ -28,7 +28,7 @@ bool is_bowl(const std::vector<Vector2>& corners, double outward, double slack_m
     if (step.x() < -slack_mm || outward * step.y() < -slack_mm) return false;
     if (i == 0) continue;
     const Vector2 before = corners[i] - corners[i - 1];
-    if (outward * cross(before, step) < -slack_mm * (before.norm() + step.norm())) return false;
+    if (outward * turn(before, step) < -slack_mm * (before.norm() + step.norm())) return false;
   }
   return true;
 }

@@ -14,7 +14,7 @@
 namespace catoptric::cad::detail {
 namespace {
 
-[[noreturn]] void refuse(std::string what, const Vector2& at) {
+[[noreturn]] void refuse_wall(std::string what, const Vector2& at) {
   throw CadError({std::move(what), fmt::format("r = {} mm, z = {} mm", at.x(), at.y()),
                   "the wall is thicker than the profile allows there",
                   "make the wall thinner, put it on the other side, or export the open surface"});
@@ -64,10 +64,10 @@ void check_span_offset(const RationalSpan& span, double offset_mm) {
     const double speed = std::hypot(p.dr, p.dz);
     if (!(speed > 0)) continue;
     const double curvature = (p.dr * p.ddz - p.dz * p.ddr) / (speed * speed * speed);
-    if (curvature * offset_mm >= 1) refuse("the wall folds", {p.r_mm, p.z_mm});
+    if (curvature * offset_mm >= 1) refuse_wall("the wall folds", {p.r_mm, p.z_mm});
     const bool inside = i > 0 && i < steps;
     if (inside && p.r_mm - offset_mm * p.dz / speed < 0)
-      refuse("the wall crosses the axis", {p.r_mm, p.z_mm});
+      refuse_wall("the wall crosses the axis", {p.r_mm, p.z_mm});
   }
 }
 
@@ -80,7 +80,7 @@ void check_section_is_simple(const Profile& profile, const std::vector<SectionPi
     for (std::size_t j = i + 2; j < segments; ++j) {
       if (closed && i == 0 && j + 1 == segments) continue;
       if (meet(points[i], points[i + 1], points[j], points[j + 1]))
-        refuse("the wall meets the mirror or itself", points[i]);
+        refuse_wall("the wall meets the mirror or itself", points[i]);
     }
 }
 

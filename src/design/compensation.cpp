@@ -46,7 +46,7 @@ std::vector<double> radii_over(double reach_mm) {
   return radii;
 }
 
-double root_mean_square(const Eigen::VectorXd& values) {
+double norm_per_sample(const Eigen::VectorXd& values) {
   return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
 }
 
@@ -68,7 +68,7 @@ class Feedback {
       wanted_[static_cast<Eigen::Index>(i)] = within ? std::max(0.0, task.wanted.w_per_mm2(radii_[i])) : 0.0;
       total[static_cast<Eigen::Index>(i)] = task.total_w_per_mm2(radii_[i]);
     }
-    total_rms_ = root_mean_square(total);
+    total_rms_ = norm_per_sample(total);
   }
 
   RealLight light_of(const Profile& profile) const {
@@ -88,9 +88,9 @@ class Feedback {
   }
 
   double error_rel(const RealLight& light) const {
-    return root_mean_square(light.reflected - wanted_) / total_rms_;
+    return norm_per_sample(light.reflected - wanted_) / total_rms_;
   }
-  double noise_rel(const RealLight& light) const { return root_mean_square(light.noise) / total_rms_; }
+  double noise_rel(const RealLight& light) const { return norm_per_sample(light.noise) / total_rms_; }
   double limit_rel() const { return blur_.limit(wanted_) / total_rms_; }
 
   /// Where images must be put, by the model of images that are all alike.

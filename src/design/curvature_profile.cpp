@@ -17,7 +17,7 @@ using Index = std::size_t;
 
 constexpr int least_stations = 2, most_stations = 64, points_per_station = 24;
 /// A vertex on the axis that leaves it flatter than this is smooth: files carry 10 digits.
-constexpr double smooth_slope = 1e-9;
+constexpr double smooth_angle_rad = 1e-9;
 
 /// Angle of the tangent after a share of a curve of given length with these curvatures.
 double angle_after(std::span<const double> curvature, double length, double share) {
@@ -114,7 +114,7 @@ CurvatureProfile::CurvatureProfile(const Profile& base, const CurvatureProfileOp
   first_r_mm_ = walk.r_mm.front();
   first_z_mm_ = walk.z_mm.front();
   first_angle_ = walk.angle.front();
-  angle_free_ = first_r_mm_ != 0 || std::abs(first_angle_) > smooth_slope;
+  angle_free_ = first_r_mm_ != 0 || std::abs(first_angle_) > smooth_angle_rad;
   if (!angle_free_) first_angle_ = 0;
   const double length = walk.length_mm / unit_mm_;
   if (!options.hold_vertex)

@@ -16,7 +16,7 @@ constexpr int least_degree = 3;  ///< so that the displaced curve bends smoothly
 constexpr int new_spans = 30;
 
 /// The curve with knots at equal arc lengths, so that it can bend alike everywhere.
-Profile refined(const Profile& base) {
+Profile evenly_knotted(const Profile& base) {
   const Profile smooth = cad::elevated(base, std::max(base.degree(), least_degree));
   constexpr int steps = 100 * new_spans;
   const double first = smooth.first_parameter(), range = smooth.last_parameter() - first;
@@ -84,7 +84,8 @@ std::vector<double> basis(const Profile& profile, double u) {
 
 }  // namespace
 
-ProfileError::ProfileError(const Profile& base) : base_(refined(base)), nodes_(greville_parameters(base_)) {
+ProfileError::ProfileError(const Profile& base)
+    : base_(evenly_knotted(base)), nodes_(greville_parameters(base_)) {
   double at = base_.first_parameter();
   std::vector<double> lengths;
   for (const double node : nodes_) {

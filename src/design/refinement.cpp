@@ -36,7 +36,7 @@ Scene next_scene(const Scene& scene, const Scene& last, Profile profile, const o
 }
 
 /// A later stage's outcome behind what came before.
-void append(optim::Outcome& all, optim::Outcome stage, const std::string& step) {
+void append_stage(optim::Outcome& all, optim::Outcome stage, const std::string& step) {
   if (!stage.history.empty()) stage.history.front().move = step;
   for (optim::Iterate& each : stage.history) {
     each.k += all.successes;
@@ -101,7 +101,7 @@ RefinedOutcome search_in_stages(const Scene& scene,
     if (!best || !may_go_on(found, scene)) break;
     Scene next = next_scene(scene, found.last, refined(best->profile, step), found.outcome);
     const long before = found.outcome.evaluations;
-    append(found.outcome, search(next), step);
+    append_stage(found.outcome, search(next), step);
     found.last = std::move(next);
     note(step, before);
   }

@@ -26,7 +26,7 @@ Scene with_kernel(const Scene& scene, double radius_mm, const std::vector<double
 }
 
 /// Adds a stage to those before; the values are the stage's own.
-void append(optim::Outcome& all, optim::Outcome stage, const std::string& kernel) {
+void append_kernel(optim::Outcome& all, optim::Outcome stage, const std::string& kernel) {
   for (optim::Iterate& each : stage.history) {
     each.k += all.successes;
     each.iteration += all.iterations;
@@ -64,12 +64,12 @@ optim::Outcome search_coarse_to_fine(const Scene& scene, sim::Rung rung, const T
       Scene stage = scene;
       stage.search.most_evaluations = share;
       for (std::size_t j = 0; j < all.best.size(); ++j) stage.variables[j].start = all.best[j];
-      append(all, search_once(stage, rung, target, control), "own kernel");
+      append_kernel(all, search_once(stage, rung, target, control), "own kernel");
     } else {
       const Scene stage = with_kernel(scene, scene.search.kernels_mm[i], all.best, share);
-      append(all, search_once(stage, rung, blurred_target(stage), control),
-             fmt::format("kernel {:.6g} {}", scene.to_scene_unit(scene.search.kernels_mm[i]),
-                         symbol(scene.unit)));
+      append_kernel(all, search_once(stage, rung, blurred_target(stage), control),
+                    fmt::format("kernel {:.6g} {}", scene.to_scene_unit(scene.search.kernels_mm[i]),
+                                symbol(scene.unit)));
     }
   }
   if (control.stopped()) {  // in whatever stage: its value is no figure of this scene

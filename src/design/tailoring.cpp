@@ -6,6 +6,7 @@
 
 #include "base/contract.h"
 #include "design/direction_residuals.h"
+#include "design/search.h"
 #include "optim/least_squares.h"
 
 namespace catoptric::design {
@@ -91,12 +92,6 @@ class Tailoring {
   DirectionResiduals rays_;
   Eigen::MatrixXd by_component_;
 };
-
-std::vector<double> starts(const std::vector<optim::Variable>& variables) {
-  std::vector<double> values;
-  for (const optim::Variable& each : variables) values.push_back(each.start);
-  return values;
-}
 
 }  // namespace
 

@@ -11,7 +11,7 @@
 namespace catoptric::optim {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_value = std::numeric_limits<double>::infinity();
 /// Above every value of use, and differences of two such are still finite.
 constexpr double unbuildable = std::numeric_limits<double>::max() / 4;
 
@@ -28,7 +28,7 @@ Tally::Tally(const Problem& problem, const SearchLimits& limits, long evaluation
     if (variable.lower < variable.upper) free_.push_back(i);
     outcome_.best.push_back(variable.start);
   }
-  outcome_.value = outcome_.start_value = infinity;
+  outcome_.value = outcome_.start_value = no_value;
 }
 
 template <class Get>
@@ -51,7 +51,7 @@ std::vector<double> Tally::upper() const {
   return of_free([](const Variable& variable) { return variable.upper; });
 }
 
-bool Tally::found() const { return outcome_.value < infinity; }
+bool Tally::found() const { return outcome_.value < no_value; }
 
 bool Tally::begin() {
   const std::vector<double> x = outcome_.best;
@@ -87,7 +87,7 @@ double Tally::evaluate(std::span<const double> free_values) {
 
 double Tally::value_at(const std::vector<double>& x, const char* move) {
   const double answer = problem_.evaluate(x);
-  const double value = std::isnan(answer) ? infinity : answer;
+  const double value = std::isnan(answer) ? no_value : answer;
   ++outcome_.evaluations;
   take(x, value, move);
   return value;

@@ -7,7 +7,7 @@
 namespace catoptric::report {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string inside;
   for (char c : text) inside += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -17,7 +17,7 @@ std::string quoted(const std::string& text) {
 std::string field(const Cell& cell) {
   if (const auto* number = std::get_if<double>(&cell)) return fmt::format("{}", *number);
   if (const auto* count = std::get_if<long long>(&cell)) return fmt::format("{}", *count);
-  if (const auto* text = std::get_if<std::string>(&cell)) return quoted(*text);
+  if (const auto* text = std::get_if<std::string>(&cell)) return in_quotes(*text);
   return "";
 }
 
@@ -31,7 +31,7 @@ std::string csv_text(const Table& table, UnitsInHeader units) {
     text += content;
   };
   for (std::size_t i = 0; i < table.columns.size(); ++i)
-    append(i, quoted(units == UnitsInHeader::yes ? heading(table.columns[i]) : table.columns[i].name));
+    append(i, in_quotes(units == UnitsInHeader::yes ? heading(table.columns[i]) : table.columns[i].name));
   text += '\n';
   for (const auto& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) append(i, field(row[i]));

@@ -10,7 +10,7 @@ void add_curve(const GeneratrixCurve& curve, std::size_t index, std::string& scr
                std::vector<std::string>& parts) {
   script += data_block(fmt::format("curve{}", index), {&curve.r, &curve.z});
   parts.push_back(fmt::format("$curve{} using 1:2 with lines {} title {}", index,
-                              line_look(curve.role, index), quoted(curve.label)));
+                              line_look(curve.role, index), gnuplot_text(curve.label)));
   if (curve.control_r.empty() && curve.control_z.empty()) return;
   script += data_block(fmt::format("control{}", index), {&curve.control_r, &curve.control_z});
   parts.push_back(
@@ -22,8 +22,8 @@ void add_curve(const GeneratrixCurve& curve, std::size_t index, std::string& scr
 
 std::string generatrix_script(const GeneratrixFigure& figure) {
   std::string script = preamble(figure.title);
-  script += fmt::format("set xlabel {}\n", quoted(axis_label("r", figure.length_unit)));
-  script += fmt::format("set ylabel {}\n", quoted(axis_label("z", figure.length_unit)));
+  script += fmt::format("set xlabel {}\n", gnuplot_text(axis_label("r", figure.length_unit)));
+  script += fmt::format("set ylabel {}\n", gnuplot_text(axis_label("z", figure.length_unit)));
   script += "set size ratio -1\n";
   script += "set offsets graph 0.06, graph 0.06, graph 0.08, graph 0.06\n";
   script += "set key outside right top vertical Left reverse spacing 1.2\n";

@@ -64,8 +64,9 @@ std::string contour_levels(const LandscapeFigure& figure, Range range) {
 }
 
 std::string axes(const LandscapeFigure& figure, Range range) {
-  std::string text = fmt::format("set xlabel {}\nset ylabel {}\nset cblabel {}\n", quoted(figure.x_label),
-                                 quoted(figure.y_label), quoted(figure.value_label));
+  std::string text =
+      fmt::format("set xlabel {}\nset ylabel {}\nset cblabel {}\n", gnuplot_text(figure.x_label),
+                  gnuplot_text(figure.y_label), gnuplot_text(figure.value_label));
   text += viridis_palette();
   if (figure.scale == AxisScale::logarithmic) text += "set logscale cb 10\nset logscale z 10\n";
   text += fmt::format("set cbrange [{}:{}]\nset zrange [{}:{}]\n", plot_number(range.least),
@@ -127,7 +128,7 @@ std::string landscape_contour_script(const LandscapeFigure& figure) {
     parts.push_back(
         fmt::format("$path{} using 1:2 with linespoints lc rgb '#000000' lw 4 pt 7 ps 0.7 notitle", i));
     parts.push_back(fmt::format("$path{} using 1:2 with linespoints {} pt 7 ps 0.45 title {}", i,
-                                line_look(path.role, i), quoted(path.label)));
+                                line_look(path.role, i), gnuplot_text(path.label)));
   }
   for (const Mark& mark : figure.marks)
     script += mark_label(mark, plot_number(mark.x) + "," + plot_number(mark.y));
@@ -140,7 +141,7 @@ std::string landscape_surface_script(const LandscapeFigure& figure, const Surfac
   const Range range = value_range(figure);
   std::string script = preamble(figure.title) + axes(figure, range);
   script += fmt::format("set xyplane at {}\nset zlabel {} rotate parallel\n", plot_number(range.least),
-                        quoted(figure.value_label));
+                        gnuplot_text(figure.value_label));
   script += surface_layout(view);
   const GridField field = shown(figure, range);
   script += grid_block("grid", field.x.size() * field.y.size() > 2500 ? refined(field, 48) : field);

@@ -17,7 +17,7 @@ std::vector<double> on_scale(std::vector<double> values, AxisScale scale) {
 }
 
 std::string labels(std::string_view x, std::string_view y) {
-  return fmt::format("set xlabel {}\nset ylabel {}\n", quoted(x), quoted(y));
+  return fmt::format("set xlabel {}\nset ylabel {}\n", gnuplot_text(x), gnuplot_text(y));
 }
 
 std::string log_axis(char axis, AxisScale scale) {
@@ -47,7 +47,7 @@ std::string radial_cut_script(const RadialCutFigure& figure) {
     const RadialCurve& curve = figure.curves[i];
     script += data_block(fmt::format("curve{}", i), {&curve.r, &curve.irradiance});
     parts.push_back(fmt::format("$curve{} using 1:2 with lines {} title {}", i, line_look(curve.role, i),
-                                quoted(curve.label)));
+                                gnuplot_text(curve.label)));
   }
   return script + plot_command("plot", parts);
 }
@@ -62,7 +62,7 @@ std::string convergence_script(const ConvergenceFigure& figure) {
     script += data_block(fmt::format("curve{}", i), {&curve.x, &y});
     // the best value stands until a better one is found
     parts.push_back(fmt::format("$curve{} using 1:2 with steps {} title {}", i, line_look(curve.role, i),
-                                quoted(curve.label)));
+                                gnuplot_text(curve.label)));
     parts.push_back(fmt::format("$curve{} using 1:2 with points lc rgb '{}' pt 7 ps 0.5 notitle", i,
                                 line_colour(curve.role, i)));
   }
@@ -82,7 +82,7 @@ std::string line_script(const LineFigure& figure) {
     const auto x = on_scale(curve.x, figure.x_scale), y = on_scale(curve.y, figure.y_scale);
     script += data_block(fmt::format("curve{}", i), {&x, &y});
     parts.push_back(fmt::format("$curve{} using 1:2 with lines {} title {}", i, line_look(curve.role, i),
-                                quoted(curve.label)));
+                                gnuplot_text(curve.label)));
   }
   for (const Mark& mark : figure.marks)
     script += mark_label(mark, plot_number(mark.x) + "," + plot_number(mark.y));

@@ -28,13 +28,13 @@ std::size_t line_end(std::string_view text, std::size_t width) {
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
+std::string gnuplot_text(std::string_view text) {
   std::string inside;
   for (char c : clean_line(text)) inside += c == '\'' ? std::string("’") : std::string(1, c);
   return '\'' + inside + '\'';
 }
 
-std::string quoted_title(std::string_view text) {
+std::string gnuplot_title(std::string_view text) {
   constexpr std::size_t width = 80, most_lines = 3;  // 800 pixels at the title's size
   const std::string clean = clean_line(text);
   std::string_view rest = clean;
@@ -42,7 +42,8 @@ std::string quoted_title(std::string_view text) {
   for (std::size_t line = 0; line < most_lines; ++line) {
     const std::size_t end = line_end(rest, width);
     const bool cut = line + 1 == most_lines && end < rest.size();
-    expression += (line ? ".\"\\n\"." : "") + quoted(std::string(rest.substr(0, end)) + (cut ? " …" : ""));
+    expression +=
+        (line ? ".\"\\n\"." : "") + gnuplot_text(std::string(rest.substr(0, end)) + (cut ? " …" : ""));
     rest.remove_prefix(end);
     if (rest.empty()) break;
     if (rest.front() == ' ') rest.remove_prefix(1);
@@ -99,7 +100,7 @@ std::string preamble(std::string_view title) {
       "set format '%g'\n"
       "set style textbox opaque fillcolor '#ffffff' noborder margins 0.6,0.4\n"
       "set title {} font ',17'\n",
-      quoted_title(title));
+      gnuplot_title(title));
 }
 
 std::string viridis_palette() {
@@ -164,8 +165,8 @@ std::string mark_label(const Mark& mark, std::string_view place) {
   // a white rim about symbol and name, so that they read on any colour
   std::string text = fmt::format("set label at {} front point lc rgb '#ffffff' {} lw 5\n", place, symbol);
   const auto name = [&](std::string_view colour, double right, double up) {
-    text += fmt::format("set label {} at {} front textcolor rgb '{}' offset char {},{}\n", quoted(mark.label),
-                        place, colour, 0.9 + right, 0.6 + up);
+    text += fmt::format("set label {} at {} front textcolor rgb '{}' offset char {},{}\n",
+                        gnuplot_text(mark.label), place, colour, 0.9 + right, 0.6 + up);
   };
   for (double right : {-0.15, 0.0, 0.15})
     for (double up : {-0.07, 0.0, 0.07}) name("#ffffff", right, up);

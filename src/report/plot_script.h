@@ -13,10 +13,10 @@ namespace catoptric::report {
 /// The text as a gnuplot string that means exactly these characters: single quotes, where gnuplot interprets
 /// nothing, and the terminal's markup is off (see preamble()). An apostrophe becomes a typographic one, since
 /// gnuplot 5.4 does not read a doubled quote at the start of a string as one.
-std::string quoted(std::string_view text);
+std::string gnuplot_text(std::string_view text);
 
 /// The text over at most three lines, as a gnuplot string expression.
-std::string quoted_title(std::string_view text);
+std::string gnuplot_title(std::string_view text);
 
 /// As many digits as it takes; NaN for anything not finite.
 std::string plot_number(double value);

@@ -7,7 +7,8 @@ namespace catoptric::report {
 
 std::string trade_script(const TradeFigure& figure) {
   std::string script = preamble(figure.title);
-  script += fmt::format("set xlabel {}\nset ylabel {}\n", quoted(figure.x_label), quoted(figure.y_label));
+  script += fmt::format("set xlabel {}\nset ylabel {}\n", gnuplot_text(figure.x_label),
+                        gnuplot_text(figure.y_label));
   script += "set logscale xy 10\nset mxtics 10\nset mytics 10\nset format '10^{%T}'\nset format '%g'\n";
   script += "set key outside bottom center horizontal maxcols 3 spacing 1.1 font ',12'\n";
   for (const double level : figure.levels)
@@ -15,13 +16,13 @@ std::string trade_script(const TradeFigure& figure) {
         "set arrow from graph 0, first {0} to graph 1, first {0} nohead dt (4,4) lc rgb "
         "'#777777' back\nset label {1} at graph 0.005, first {0} offset 0,0.5 font ',12' "
         "textcolor rgb '#777777'\n",
-        plot_number(level), quoted(fmt::format("{:g} %", 100 * level)));
+        plot_number(level), gnuplot_text(fmt::format("{:g} %", 100 * level)));
   std::vector<std::string> parts;
   if (!figure.front.x.empty()) {
     script += data_block("front", {&figure.front.x, &figure.front.y});
     // what the front reaches is reached by all dearer settings too
     parts.push_back(fmt::format("$front using 1:2 with steps lc rgb '#000000' lw 2 title {}",
-                                quoted(figure.front.label)));
+                                gnuplot_text(figure.front.label)));
   }
   constexpr int shapes[] = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10};
   for (std::size_t i = 0; i < figure.groups.size(); ++i) {
@@ -29,7 +30,7 @@ std::string trade_script(const TradeFigure& figure) {
     script += data_block(fmt::format("group{}", i), {&group.x, &group.y});
     parts.push_back(fmt::format("$group{} using 1:2 with points lc rgb '{}' pt {} ps 0.9 title {}", i,
                                 line_colour(CurveRole::other, i), shapes[i % std::size(shapes)],
-                                quoted(group.label)));
+                                gnuplot_text(group.label)));
   }
   return script + plot_command("plot", parts);
 }

@@ -11,7 +11,7 @@
 namespace catoptric::report {
 namespace {
 
-std::string unit_of(const design::Scene& scene) { return std::string(symbol(scene.unit)); }
+std::string length_unit(const design::Scene& scene) { return std::string(symbol(scene.unit)); }
 
 std::string objective_text(const design::Scene& scene, const design::Judgement& judgement) {
   const char* unit = design::unit(scene.search.metric).empty() ? "" : " W/m²";
@@ -23,7 +23,7 @@ std::string objective_text(const design::Scene& scene, const design::Judgement& 
 std::string kernel_text(const design::Scene& scene, const design::Judgement& judgement) {
   if (judgement.kernel_radius_mm == 0) return "none: the irradiance itself";
   const std::string radius =
-      fmt::format("radius {:.4g} {}", scene.to_scene_unit(judgement.kernel_radius_mm), unit_of(scene));
+      fmt::format("radius {:.4g} {}", scene.to_scene_unit(judgement.kernel_radius_mm), length_unit(scene));
   if (judgement.accuracy)
     return fmt::format("{}, bias of order {}; what it blurs is within the error stated", radius,
                        judgement.accuracy->order);
@@ -67,8 +67,11 @@ std::vector<PageTable> constraint_tables(const design::Scene& scene, const desig
 }
 
 PageSection mirror_section(const design::Scene& scene, const Profile& profile) {
-  Table points{
-      {{"control point", ""}, {"r", unit_of(scene), 10}, {"z", unit_of(scene), 10}, {"weight", "", 10}}, {}};
+  Table points{{{"control point", ""},
+                {"r", length_unit(scene), 10},
+                {"z", length_unit(scene), 10},
+                {"weight", "", 10}},
+               {}};
   for (std::size_t i = 0; i < profile.points().size(); ++i) {
     const ControlPoint& point = profile.points()[i];
     points.rows.push_back({static_cast<long long>(i), scene.to_scene_unit(point.r_mm),
@@ -82,9 +85,9 @@ PageSection mirror_section(const design::Scene& scene, const Profile& profile) {
       {{"Degree", fmt::format("{}", profile.degree())},
        {"Knots", knots},
        {"Rim radius", fmt::format("{:.8g} {}", scene.to_scene_unit(profile.at(profile.last_parameter()).r_mm),
-                                  unit_of(scene))},
+                                  length_unit(scene))},
        {"Depth", fmt::format("{:.8g} {}", scene.to_scene_unit(profile.z_max_mm() - profile.z_min_mm()),
-                             unit_of(scene))},
+                             length_unit(scene))},
        {"Area", fmt::format("{:.8g} mm²", profile.area_mm2())}},
       {{"Control points", points}},
       {}};
