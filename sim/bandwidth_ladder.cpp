@@ -1,7 +1,5 @@
 #include "sim/bandwidth_ladder.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -11,6 +9,7 @@
 #include "sim/photon_map.h"
 #include "sim/probes.h"
 #include "sim/rings.h"
+#include "sim/side_by_side.h"
 
 namespace catoptric::sim {
 namespace {
@@ -81,7 +80,7 @@ struct PhotonSets::Parts {
     flights->record(RecordedArea::about(scene.near_field, widest_radius_mm));
     std::vector<TracedPhotons> traced(sets);
     std::vector<std::optional<PhotonMap>> built(sets);
-    tbb::parallel_for(std::size_t{0}, sets, [&](std::size_t set) {
+    side_by_side(sets, [&](std::size_t set) {
       PhotonOptions photons = options;
       photons.stream += set;
       traced[set] = trace_photons(*flights, photons);
@@ -147,7 +146,7 @@ BandwidthLadder PhotonSets::look(std::span<const FieldSample> samples, double wi
   std::vector<double> radii;
   if (by_rings) radii = ring_radii_mm(parts_->scene.near_field, samples);
   std::vector<std::vector<Look>> sets(parts_->sets());
-  tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t set) {
+  side_by_side(sets.size(), [&](std::size_t set) {
     sets[set] = by_rings ? look_at_rings(parts_->rings[set], radii, widest_radius_mm, ladder.size())
                          : look_at_map(parts_->maps[set], samples, widest_radius_mm, ladder.size());
   });
@@ -193,7 +192,7 @@ SetFields PhotonSets::fields(std::span<const FieldSample> samples, double kernel
   SetFields sets(parts_->sets());
   std::vector<double> radii;
   if (!parts_->rings.empty()) radii = ring_radii_mm(parts_->scene.near_field, samples);
-  tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t set) {
+  side_by_side(sets.size(), [&](std::size_t set) {
     if (!radii.empty()) {
       Look look = std::move(look_at_rings(parts_->rings[set], radii, kernel_radius_mm, 1).front());
       sets[set] = std::move(order == 2 ? look.second : look.fourth);

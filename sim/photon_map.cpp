@@ -1,7 +1,6 @@
 #include "sim/photon_map.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include "sim/kernel_sum.h"
 #include "sim/ladder_sum.h"
 #include "sim/photon_grid.h"
+#include "sim/side_by_side.h"
 
 namespace catoptric::sim {
 namespace {
@@ -130,7 +130,7 @@ struct PhotonMap::Parts {
       front.build(chunks, &StoredChunk::front);
       back.build(chunks, &StoredChunk::back);
     } else {
-      tbb::parallel_for(std::size_t{0}, 2 * photon_bands, [&](std::size_t i) {
+      side_by_side(2 * photon_bands, [&](std::size_t i) {
         if (i < photon_bands)
           front.build(i, chunks, &StoredChunk::front);
         else
@@ -197,7 +197,7 @@ MapEstimate PhotonMap::estimate(std::span<const FieldSample> samples, const Esti
     out.noise[i] = scale * std::sqrt(sum.weight_squared());
   };
   constexpr std::size_t chunk = 16;
-  tbb::parallel_for(std::size_t{0}, (samples.size() + chunk - 1) / chunk, [&](std::size_t part) {
+  side_by_side((samples.size() + chunk - 1) / chunk, [&](std::size_t part) {
     std::vector<double> squares;
     for (std::size_t i = part * chunk; i < std::min(samples.size(), (part + 1) * chunk); ++i)
       estimate_one(i, squares);
@@ -221,7 +221,7 @@ std::vector<std::vector<double>> PhotonMap::ladder(std::span<const FieldSample> 
   for (std::size_t level = 0; level < levels; ++level)
     radii[level] = widest_radius_mm * std::pow(0.5, 0.5 * static_cast<double>(level));
   constexpr std::size_t chunk = 16;
-  tbb::parallel_for(std::size_t{0}, (samples.size() + chunk - 1) / chunk, [&](std::size_t part) {
+  side_by_side((samples.size() + chunk - 1) / chunk, [&](std::size_t part) {
     LadderSum sum(widest_radius_mm, levels);
     std::vector<double> weights(levels);
     for (std::size_t i = part * chunk; i < std::min(samples.size(), (part + 1) * chunk); ++i) {

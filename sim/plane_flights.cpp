@@ -1,13 +1,12 @@
 #include "sim/plane_flights.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 
 #include "base/random_stream.h"
 #include "base/vector_clones.h"
 #include "sim/plane_tracer.h"
+#include "sim/side_by_side.h"
 
 namespace catoptric::sim {
 
@@ -78,7 +77,7 @@ FlightTotals PlaneFlights::fly(const PhotonOptions& options, bool front, const T
   check(options);
   const std::uint64_t key = photon_key(options.seed, options.stream), photons = options.photons;
   SharedCounts counts;
-  tbb::parallel_for(std::uint64_t{0}, PhotonFlights::chunks(photons), [&](std::uint64_t i) {
+  side_by_side(PhotonFlights::chunks(photons), [&](std::uint64_t i) {
     give_up_if_stopped(options);
     const std::uint64_t first = i * photons_of_a_chunk;
     const auto count = static_cast<std::size_t>(std::min(photons_of_a_chunk, photons - first));

@@ -1,12 +1,12 @@
 #include "sim/ring_counts.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numeric>
 #include <optional>
+
+#include "sim/side_by_side.h"
 
 namespace catoptric::sim {
 namespace {
@@ -120,7 +120,7 @@ void CountedRings::read(std::span<const double> places, RingKernel kernel, doubl
   for (auto& each : nodes)
     if (each) each->estimate();
   constexpr std::size_t chunk = 512;
-  tbb::parallel_for(std::size_t{0}, (places.size() + chunk - 1) / chunk, [&](std::size_t part) {
+  side_by_side((places.size() + chunk - 1) / chunk, [&](std::size_t part) {
     RingDensity density;
     for (std::size_t place = part * chunk; place < std::min(places.size(), (part + 1) * chunk); ++place) {
       const std::size_t i = segment_of(places[place]);

@@ -1,12 +1,11 @@
 #include "sim/ring_nodes.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/contract.h"
 #include "base/vector_clones.h"
+#include "sim/side_by_side.h"
 
 namespace catoptric::sim {
 namespace {
@@ -112,7 +111,7 @@ RingNodes::Weights RingNodes::weights_for(std::size_t first, std::size_t last) c
 void RingNodes::estimate() {
   nodes_ = std::make_unique_for_overwrite<double[]>(wanted_.size() * node_row());  // what is wanted is set
   constexpr std::size_t chunk = 128;
-  tbb::parallel_for(std::size_t{0}, (wanted_.size() + chunk - 1) / chunk, [&](std::size_t part) {
+  side_by_side((wanted_.size() + chunk - 1) / chunk, [&](std::size_t part) {
     for (std::size_t node = part * chunk; node < std::min(wanted_.size(), (part + 1) * chunk); ++node)
       if (wanted_[node]) estimate_node(node);
   });

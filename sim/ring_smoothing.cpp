@@ -1,11 +1,10 @@
 #include "sim/ring_smoothing.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/vector_clones.h"
+#include "sim/side_by_side.h"
 #include "sim/tube_kernel.h"
 
 namespace catoptric::sim {
@@ -37,7 +36,7 @@ std::vector<double> smoothed_rings(const RingStore::Places& places, double photo
   const double scale = photon_power_w * kernel_peak_per_mm2(kernel_radius_mm);
   std::vector<double> values(radii_mm.size());
   constexpr std::size_t chunk = 32;
-  tbb::parallel_for(std::size_t{0}, (radii_mm.size() + chunk - 1) / chunk, [&](std::size_t part) {
+  side_by_side((radii_mm.size() + chunk - 1) / chunk, [&](std::size_t part) {
     for (std::size_t i = part * chunk; i < std::min(radii_mm.size(), (part + 1) * chunk); ++i) {
       const double at = radii_mm[i] / kernel_radius_mm;
       const auto first = std::lower_bound(rings.begin(), rings.end(), at - 1);

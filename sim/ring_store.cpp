@@ -1,8 +1,8 @@
 #include "sim/ring_store.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include "sim/side_by_side.h"
 
 namespace catoptric::sim {
 
@@ -46,7 +46,7 @@ std::size_t SortedRings::memory_bytes() const {
 void SortedRings::estimate(std::span<const double> places, RingKernel kernel, double bandwidth,
                            const TakeDensity& take) const {
   constexpr std::size_t chunk = 64;
-  tbb::parallel_for(std::size_t{0}, (places.size() + chunk - 1) / chunk, [&](std::size_t part) {
+  side_by_side((places.size() + chunk - 1) / chunk, [&](std::size_t part) {
     RingDensity density;
     for (std::size_t i = part * chunk; i < std::min(places.size(), (part + 1) * chunk); ++i) {
       look(places[i], kernel, bandwidth, density);

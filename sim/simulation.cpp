@@ -1,7 +1,5 @@
 #include "sim/simulation.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 
@@ -9,6 +7,7 @@
 #include "base/tolerance.h"
 #include "sim/clear_view.h"
 #include "sim/photon_fields.h"
+#include "sim/side_by_side.h"
 
 namespace catoptric::sim {
 namespace {
@@ -36,7 +35,7 @@ std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample
   }
   // One probe a chunk: engines may keep caches in it, and those must not depend on the number of threads.
   constexpr std::size_t chunk = 64;
-  tbb::parallel_for(std::size_t{0}, (samples.size() + chunk - 1) / chunk, [&](std::size_t part) {
+  side_by_side((samples.size() + chunk - 1) / chunk, [&](std::size_t part) {
     const auto probe = scene.reflector.probe();
     for (std::size_t i = part * chunk; i < std::min(samples.size(), (part + 1) * chunk); ++i)
       direct[i] = shine(i, *probe);

@@ -1,7 +1,6 @@
 #include "sim/tracer.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +17,7 @@
 #include "sim/plane_tracer.h"
 #include "sim/projection_map.h"
 #include "sim/scatter.h"
+#include "sim/side_by_side.h"
 #include "sim/turns.h"
 
 namespace catoptric::sim {
@@ -313,7 +313,7 @@ FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossing
   std::uint64_t begin = 0;
   do {
     const std::uint64_t end = std::min(chunks(photons), begin + chunks_of_a_batch);
-    tbb::parallel_for(begin, end, fly_chunk);
+    side_by_side(end - begin, [&](std::uint64_t i) { fly_chunk(begin + i); });
     landed();
     begin = end;
   } while (begin < chunks(photons));
