@@ -33,7 +33,15 @@ class Ledger {
   std::optional<Ending> ending;
   std::exception_ptr failure;
 
-  /// The point at the free values given; null when the search has to end or the point cannot be built.
+  /// Ceres' unit of the residuals: a power of two near their norm at the start.
+  double residual_unit() const {
+    const double norm = outcome.start_value;
+    return norm > 0 && norm < infinity ? std::exp2(std::ilogb(norm)) : 1.0;
+  }
+  double unit(std::size_t i) const { return natural_unit(problem_.variables[free[i]]); }
+
+  /// The point at the free values given, in natural units; null when the search has to end or the point
+  /// cannot be built.
   const LastPoint* at(const double* free_values, bool with_jacobian);
   void record(const char* move, double radius);
 
@@ -81,7 +89,7 @@ bool Ledger::hold_at_bounds() {
 bool Ledger::release_pulled_back() {
   constexpr double least_cosine = 1e-8;  // of residuals and derivatives: rounding, seen from there
   std::vector<double> values;
-  for (const std::size_t i : free) values.push_back(outcome.best[i]);
+  for (std::size_t i = 0; i < free.size(); ++i) values.push_back(outcome.best[free[i]] / unit(i));
   const LastPoint* point = at(values.data(), true);
   if (!point) return false;
   const std::size_t before = free.size(), columns = point->x.size();
@@ -114,7 +122,7 @@ const LastPoint* Ledger::at(const double* free_values, bool with_jacobian) {
   std::vector<double> x = outcome.best;  // what is held stands there
   for (std::size_t i = 0; i < free.size(); ++i) {
     const Variable& variable = problem_.variables[free[i]];
-    x[free[i]] = std::clamp(free_values[i], variable.lower, variable.upper);
+    x[free[i]] = std::clamp(free_values[i] * unit(i), variable.lower, variable.upper);
   }
   const bool same = last_.known && x == last_.x;
   last_.x = std::move(x);
@@ -171,12 +179,14 @@ class Residuals : public ceres::CostFunction {
     const bool with_jacobian = jacobians && jacobians[0];
     const LastPoint* point = ledger_.at(blocks[0], with_jacobian);
     if (!point) return false;
-    std::ranges::copy(point->residuals, residuals);
+    const double scale = 1 / ledger_.residual_unit();
+    for (const double residual : point->residuals) *residuals++ = scale * residual;
     if (!with_jacobian) return true;
     const std::size_t columns = point->x.size();
     double* out = jacobians[0];
     for (std::size_t row = 0; row < point->residuals.size(); ++row)
-      for (const std::size_t column : ledger_.free) *out++ = point->jacobian[row * columns + column];
+      for (std::size_t i = 0; i < ledger_.free.size(); ++i)
+        *out++ = scale * ledger_.unit(i) * point->jacobian[row * columns + ledger_.free[i]];
     return true;
   }
 
@@ -270,14 +280,20 @@ void silence_ceres() {
 ceres::Solver::Summary solve(Ledger& ledger, const LeastSquaresProblem& problem,
                              const LevenbergMarquardtOptions& options) {
   std::vector<double> values;
-  for (const std::size_t i : ledger.free) values.push_back(ledger.outcome.best[i]);
+  for (std::size_t i = 0; i < ledger.free.size(); ++i)
+    values.push_back(ledger.outcome.best[ledger.free[i]] / ledger.unit(i));
+  // Before Ceres asks: the residuals' unit follows from the start.
+  if (ledger.outcome.evaluations == 0) ledger.at(values.data(), true);
   ceres::Problem model;
   model.AddResidualBlock(new Residuals(ledger, problem.residual_count), nullptr, values.data());
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Variable& variable = problem.variables[ledger.free[i]];
     const int index = static_cast<int>(i);
-    if (std::isfinite(variable.lower)) model.SetParameterLowerBound(values.data(), index, variable.lower);
-    if (std::isfinite(variable.upper)) model.SetParameterUpperBound(values.data(), index, variable.upper);
+    const double unit = ledger.unit(i);
+    if (std::isfinite(variable.lower))
+      model.SetParameterLowerBound(values.data(), index, variable.lower / unit);
+    if (std::isfinite(variable.upper))
+      model.SetParameterUpperBound(values.data(), index, variable.upper / unit);
   }
   Watcher watcher(ledger);
   ceres::Solver::Options solver = solver_options(options);

@@ -13,7 +13,7 @@ namespace catoptric::optim {
 
 /// Minimise the norm of residuals(x) over the box of the variables.
 struct LeastSquaresProblem {
-  std::vector<Variable> variables;  ///< their steps do not count
+  std::vector<Variable> variables;  ///< steps tell nothing but how large a variable is without bounds
   std::size_t residual_count = 0;
   /// Fills the residuals and, when `jacobian` is not null, their derivatives: row by row, a row for each
   /// residual, a column for each variable. False for a point that cannot be built. Never called outside the
@@ -36,6 +36,8 @@ struct LevenbergMarquardtOptions {
 };
 
 /// Levenberg-Marquardt within bounds: damped steps by dense QR, projected onto the box with a line search.
+/// Variables are in their natural units and residuals over their norm at the start, since Ceres' damping and
+/// its ends take numbers for about 1.
 /// One thread, the same bits every run.
 /// @out   value, start_value and the history hold the norm of the residuals; divide the residuals by the root
 ///        of their number to make it their root mean square. An iteration is one damped step, a success one

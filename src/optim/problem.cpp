@@ -27,6 +27,11 @@ void require_sound(const Variable& variable) {
 
 }  // namespace
 
+double natural_unit(const Variable& variable) {
+  const double width = variable.upper - variable.lower;
+  return std::exp2(std::ilogb(std::isfinite(width) && width > 0 ? width : variable.step));
+}
+
 void require_sound(const Problem& problem) {
   if (problem.variables.empty())
     throw InputError({"there is nothing to search", "", "no variable is free", "name at least one variable"});

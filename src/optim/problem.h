@@ -22,6 +22,11 @@ struct Problem {
   std::function<double(std::span<const double>)> evaluate;
 };
 
+/// What a search measures a variable in, where its method would mind the caller's unit: a power of two near
+/// the width of the box, or near the step where the box has no end. So the same problem in other units, by
+/// powers of two, is the same to the last bit.
+double natural_unit(const Variable& variable);
+
 /// Checks what every search relies on.
 /// @fails InputError, naming the variable, for an empty problem, a missing objective, a step that is not
 ///        positive and finite, a start that is not finite or outside its bounds

@@ -34,7 +34,8 @@ Tally::Tally(const Problem& problem, const SearchLimits& limits, long evaluation
 template <class Get>
 std::vector<double> Tally::of_free(Get get) const {
   std::vector<double> values;
-  for (const std::size_t i : free_) values.push_back(get(problem_.variables[i]));
+  for (const std::size_t i : free_)
+    values.push_back(get(problem_.variables[i]) / natural_unit(problem_.variables[i]));
   return values;
 }
 
@@ -67,7 +68,7 @@ double Tally::evaluate(std::span<const double> free_values) {
   for (const Variable& variable : problem_.variables) x.push_back(variable.start);
   for (std::size_t i = 0; i < free_.size(); ++i) {
     const Variable& variable = problem_.variables[free_[i]];
-    x[free_[i]] = std::clamp(free_values[i], variable.lower, variable.upper);
+    x[free_[i]] = std::clamp(free_values[i] * natural_unit(variable), variable.lower, variable.upper);
   }
   if (!ending_) {
     if (found() && x == outcome_.best) {

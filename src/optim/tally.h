@@ -12,7 +12,8 @@
 namespace catoptric::optim {
 
 /// Stands between a problem and a library's search: counts, keeps the best and the history, and ends the
-/// search when its limits say so. The library sees only the variables that can move.
+/// search when its limits say so. The library sees only the variables that can move, each in its natural
+/// unit: some libraries compare steps with absolute numbers, or add up what has different units.
 class Tally {
  public:
   /// Thrown out of evaluate() to leave the library's loop.
@@ -49,7 +50,7 @@ class Tally {
   double value_at(const std::vector<double>& x, const char* move);
   void take(const std::vector<double>& x, double value, const char* move);
   template <class Get>
-  std::vector<double> of_free(Get get) const;
+  std::vector<double> of_free(Get get) const;  ///< in natural units
   std::string sentence(std::string why) const;
 
   const Problem& problem_;
