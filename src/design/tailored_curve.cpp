@@ -12,7 +12,7 @@
 namespace catoptric::design {
 namespace {
 
-/// Logarithm of the distance from the source, whose derivative has no scale.
+/// Logarithm of the distance from the source over that of the apex: no number here has a scale.
 using State = std::array<double, 1>;
 
 struct RunsAway {
@@ -21,12 +21,15 @@ struct RunsAway {
 
 class RayEquation {
  public:
-  RayEquation(const FluxMap& map, const AxialLayout& layout, RayMap kind)
-      : map_(map), layout_(layout), side_(kind == RayMap::crossing ? -1.0 : 1.0) {}
+  RayEquation(const FluxMap& map, const AxialLayout& layout, RayMap kind, double apex_distance_mm)
+      : map_(map),
+        layout_(layout),
+        side_(kind == RayMap::crossing ? -1.0 : 1.0),
+        apex_distance_mm_(apex_distance_mm) {}
 
   /// d log(distance) / d angle: the normal halves the angle between the ray and the way to its landing point.
   double slope(double log_distance, double angle) const {
-    const double distance = std::exp(log_distance), sine = std::sin(angle), cosine = std::cos(angle);
+    const double distance = distance_mm(log_distance), sine = std::sin(angle), cosine = std::cos(angle);
     const double r = distance * sine, z = layout_.source_z_mm + layout_.apex_side * distance * cosine;
     const double to_r = side_ * map_.at(angle).radius_mm - r, to_z = layout_.field_z_mm - z;
     const double way = std::hypot(to_r, to_z);
@@ -39,16 +42,18 @@ class RayEquation {
   }
 
   CurvePoint point(double log_distance, double angle) const {
-    const double distance = std::exp(log_distance), sine = std::sin(angle), cosine = std::cos(angle);
+    const double distance = distance_mm(log_distance), sine = std::sin(angle), cosine = std::cos(angle);
     const double grows = angle > 0 ? distance * slope(log_distance, angle) : 0.0;
     return {angle, distance * sine, layout_.source_z_mm + layout_.apex_side * distance * cosine,
             grows * sine + distance * cosine, layout_.apex_side * (grows * cosine - distance * sine)};
   }
 
  private:
+  double distance_mm(double log_distance) const { return apex_distance_mm_ * std::exp(log_distance); }
+
   const FluxMap& map_;
   const AxialLayout& layout_;
-  double side_;
+  double side_, apex_distance_mm_;
 };
 
 }  // namespace
@@ -62,11 +67,11 @@ std::variant<std::vector<CurvePoint>, std::string> tailored_curve(const FluxMap&
   CATOPTRIC_EXPECTS(apex_distance_mm > 0 && !angles_rad.empty() && angles_rad.front() > 0);
   namespace odeint = boost::numeric::odeint;
   constexpr double tolerance = 1e-10;
-  const RayEquation equation(map, layout, kind);
+  const RayEquation equation(map, layout, kind, apex_distance_mm);
   const auto right_side = [&](const State& at, State& slope, double angle) {
     slope[0] = equation.slope(at[0], angle);
   };
-  State at{std::log(apex_distance_mm)};
+  State at{0};
   std::vector<CurvePoint> points{equation.point(at[0], 0)};
   try {
     double from = 0;

@@ -60,6 +60,7 @@ ProfileVariables listed_variables(const Scene& scene) {
     names.push_back(variable.name);
     components.push_back(*parse_component(variable.name, scene.profile.points().size()));
     const bool weight = components.back().coordinate == 'w';
+    variable.step = weight ? std::log1p(variable.step / variable.start) : variable.step * unit_mm;
     for (double* each : {&variable.start, &variable.lower, &variable.upper})
       *each = weight ? std::log(*each) : *each * unit_mm;
     family.variables.push_back(variable);
