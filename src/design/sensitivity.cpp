@@ -89,7 +89,9 @@ std::optional<Changes> derivative(FieldChanger& changer, const Deviation& deviat
 
 ParameterSensitivity measure(FieldChanger& changer, const Scene& scene, const Profile& profile,
                              const Deviation& deviation, const RunControl& control) {
-  const auto small = deviation.at(deviation.first_guess);
+  // To the side that makes sense: a mirror that reflects all cannot reflect more.
+  const auto small = deviation.at(deviation.first_guess <= deviation.greatest ? deviation.first_guess
+                                                                              : -deviation.first_guess);
   const sim::Rung rung =
       small ? make_plan(small->scene, small->profile).rung : make_plan(scene, profile).rung;
   ParameterSensitivity result{deviation, rung, changer.replicates(rung), 0, {}, 0, {}, {}, {}, {}};

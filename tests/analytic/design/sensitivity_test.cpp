@@ -94,6 +94,16 @@ TEST_CASE("what is proportional comes out exactly: power, reflectance", "[sensit
   CHECK(mirror.minus);
 }
 
+TEST_CASE("a perfect mirror cannot be better: by photons too it is made worse only", "[sensitivity]") {
+  const Scene scene = paper("paraboloid.toml", {{"model.rung", "photons", "test"},
+                                                {"model.photons", "1024", "test"},
+                                                {"sensitivity.modes", "0", "test"}});
+  REQUIRE(scene.mirror.reflectance == 1);
+  const Sensitivity s = run_sensitivity(scene, {});
+  CHECK_FALSE(of(s, "reflectance").plus);
+  CHECK(of(s, "reflectance").minus);
+}
+
 TEST_CASE("derivatives by profile errors are those that the tubes' own calculus gives", "[sensitivity]") {
   const Scene scene = paper("start_a.toml", {{"sensitivity.modes", "2", "test"}});
   const Sensitivity s = run_sensitivity(scene, {});
