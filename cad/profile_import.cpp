@@ -9,13 +9,14 @@
 #include <chrono>
 #include <cmath>
 
-#include "cad/detail/byte_packet.h"
 #include "cad/detail/curve_source.h"
 #include "cad/detail/exchange_check.h"
+#include "cad/detail/import_here.h"
 #include "cad/detail/isolated.h"
 #include "cad/detail/meridian_frame.h"
 #include "cad/detail/occt_curve.h"
 #include "cad/detail/occt_guard.h"
+#include "cad/detail/profile_packet.h"
 
 namespace catoptric::cad {
 namespace {
@@ -97,7 +98,8 @@ struct ChosenAxis {
 
 gp_Ax1 axis_from_user(const Axis& said) {
   const double length = said.direction.norm();
-  if (!said.origin_mm.allFinite() || !said.direction.allFinite() || !(length > 0))
+  constexpr double least_length = 1e-100;  // squares of shorter ones lose digits, of longer ones overflow
+  if (!said.origin_mm.allFinite() || !(length >= least_length && length <= 1 / least_length))
     throw CadError({"the axis that was given is none", "",
                     "it needs a finite origin and a direction that is not zero",
                     "write for example 0 0 0  0 0 1"});
@@ -177,17 +179,28 @@ std::vector<std::string> notes_on(const CurveSource& source, const SourceCurve& 
   return notes;
 }
 
-ImportedProfile import_here(const std::filesystem::path& file, detail::ExchangeKind kind,
-                            const ImportOptions& options) {
-  const CurveSource source =
-      kind == detail::ExchangeKind::step ? detail::read_step_curves(file) : detail::read_iges_curves(file);
-  return detail::guarded("find the profile", file.string(), [&] {
+/// OCCT reads about a MiB in a second and needs some ten times a file's size; a file that takes far more
+/// would go on for ever.
+detail::IsolationLimits limits_for(const std::filesystem::path& file, const ImportOptions& options) {
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+  const std::uintmax_t bytes = ignored ? 0 : size;
+  const std::chrono::milliseconds usual = std::chrono::seconds(20 + static_cast<long>(bytes >> 19));
+  return {options.time_limit.value_or(usual), (std::size_t{1} << 30) + 32 * bytes};
+}
+
+}  // namespace
+
+ImportedProfile detail::import_here(const std::filesystem::path& file, ExchangeKind kind,
+                                    const ImportOptions& options) {
+  const CurveSource source = kind == ExchangeKind::step ? read_step_curves(file) : read_iges_curves(file);
+  return guarded("find the profile", file.string(), [&] {
     const std::vector<const SourceCurve*> candidates = candidates_of(source);
     std::vector<std::string> descriptions;
     for (const SourceCurve* candidate : candidates) descriptions.push_back(candidate->description);
     const SourceCurve& curve = choose(candidates, descriptions, source, file, options);
     const ChosenAxis axis = find_axis(curve, source, options, file);
-    const detail::MeridianView view = detail::see_from_axis(curve.curve, axis.axis);
+    const MeridianView view = see_from_axis(curve.curve, axis.axis);
     if (!view.meridian)
       throw CadError({"the curve is no meridian", file.string(), view.fault + "; " + axis.note,
                       "give another axis, or draw the profile on one side of its axis"});
@@ -196,52 +209,12 @@ ImportedProfile import_here(const std::filesystem::path& file, detail::ExchangeK
   });
 }
 
-std::string pack(const ImportedProfile& imported) {
-  detail::BytePacket packet;
-  packet.put(static_cast<std::size_t>(imported.profile.degree()));
-  packet.put(imported.profile.knots().size());
-  for (const double knot : imported.profile.knots()) packet.put(knot);
-  packet.put(imported.profile.points().size());
-  for (const ControlPoint& point : imported.profile.points())
-    for (const double value : {point.r_mm, point.z_mm, point.weight}) packet.put(value);
-  for (const auto* texts : {&imported.notes, &imported.candidates}) {
-    packet.put(texts->size());
-    for (const std::string& text : *texts) packet.put(text);
-  }
-  return packet.bytes();
-}
-
-ImportedProfile unpack(const std::string& bytes) {
-  detail::ByteReader reader(bytes);
-  const int degree = static_cast<int>(reader.count());
-  std::vector<double> knots(reader.count());
-  for (double& knot : knots) knot = reader.number();
-  std::vector<ControlPoint> points(reader.count());
-  for (ControlPoint& point : points) {
-    point.r_mm = reader.number();
-    point.z_mm = reader.number();
-    point.weight = reader.number();
-  }
-  std::vector<std::string> notes(reader.count());
-  for (std::string& text : notes) text = reader.text();
-  std::vector<std::string> candidates(reader.count());
-  for (std::string& text : candidates) text = reader.text();
-  return {Profile(degree, std::move(knots), std::move(points)), std::move(notes), std::move(candidates)};
-}
-
-/// OCCT reads about a MiB in a second; a file that takes far longer keeps it busy for ever.
-std::chrono::seconds time_for(const std::filesystem::path& file) {
-  std::error_code ignored;
-  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
-  return std::chrono::seconds(20 + (ignored ? 0 : static_cast<long>(size >> 19)));
-}
-
-}  // namespace
-
 ImportedProfile import_profile(const std::filesystem::path& file, const ImportOptions& options) {
   const detail::ExchangeKind kind = detail::kind_of_file(file);
-  return unpack(detail::run_isolated(file.string(), time_for(file),
-                                     [&] { return pack(import_here(file, kind, options)); }));
+  return detail::unpack_profile(
+      detail::run_isolated(file.string(), limits_for(file, options),
+                           [&] { return detail::pack_profile(detail::import_here(file, kind, options)); }),
+      file);
 }
 
 }  // namespace catoptric::cad

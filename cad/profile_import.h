@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@ struct Axis {
 struct ImportOptions {
   std::optional<std::size_t> candidate;  ///< which curve, as numbered in ImportedProfile::candidates
   std::optional<Axis> axis;              ///< nothing: found in the file
+  std::optional<std::chrono::milliseconds> time_limit;  ///< nothing: 20 s, and 2 s more for each MiB
 };
 
 /// A generatrix found in a file.

@@ -29,6 +29,13 @@ class ByteReader {
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
   double number() { return take<double>(); }
   std::size_t count() { return take<std::size_t>(); }
+  /// How many items of at least so many bytes follow; 0 and not whole when they cannot all be there.
+  std::size_t count_of(std::size_t least_size) {
+    const std::size_t count = this->count();
+    if (count <= rest_.size() / least_size) return count;
+    whole_ = false;
+    return 0;
+  }
   std::string text() {
     const std::size_t size = count();
     if (size > rest_.size()) {

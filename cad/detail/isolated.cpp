@@ -1,5 +1,6 @@
 #include "cad/detail/isolated.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
@@ -7,14 +8,19 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <fstream>
+#include <new>
 #include <optional>
+#include <thread>
 
 #include "base/errors.h"
+#include "base/sanitized.h"
 #include "cad/detail/byte_packet.h"
 #include "cad/detail/occt_guard.h"
 
@@ -22,8 +28,7 @@ namespace catoptric::cad::detail {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr rlim_t most_memory = rlim_t{8}
-                               << 30;  // the largest file we take, and OCCT needs some ten times its size
+constexpr std::size_t most_bytes = std::size_t{256} << 20;  // a result has some kB
 
 enum class Outcome : char { result = 'r', cad_error = 'c', other_error = 'o' };
 
@@ -34,7 +39,7 @@ std::string failure_packet(Outcome outcome, const ErrorParts& parts) {
   return packet.bytes();
 }
 
-std::string packet_of(const std::function<std::string()>& work) {
+std::string packet_of(const std::string& where, const std::function<std::string()>& work) {
   try {
     BytePacket packet;
     const std::string result = work();
@@ -43,28 +48,55 @@ std::string packet_of(const std::function<std::string()>& work) {
     return packet.bytes();
   } catch (const CadError& error) {
     return failure_packet(Outcome::cad_error, error.parts());
+  } catch (const std::bad_alloc&) {
+    return failure_packet(Outcome::cad_error, {"the file cannot be read", where,
+                                               "there is not enough memory for it", "export less"});
   } catch (const std::exception& error) {
     return failure_packet(Outcome::other_error, {error.what(), "", "", ""});
   }
 }
 
+/// Bytes of address space that this process has.
+std::size_t address_space() {
+  std::ifstream in("/proc/self/statm");
+  std::size_t pages = 0;
+  in >> pages;
+  return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void set_limit(int resource, rlim_t value) {
+  const rlimit limit{value, value};
+  ::setrlimit(static_cast<__rlimit_resource_t>(resource), &limit);
+}
+
+/// Leaves the child nothing open but its pipe, whose number is handed back: broken memory must not reach the
+/// parent's files, and what the C library says of it must not reach the terminal.
+int keep_only(int pipe) {
+  constexpr int kept = STDERR_FILENO + 1;
+  if (pipe != kept) ::dup2(pipe, kept);
+  ::close_range(kept + 1, ~0U, 0);
+#ifndef CATOPTRIC_ADDRESS_SANITIZED  // whose findings are wanted
+  if (const int nothing = ::open("/dev/null", O_RDWR); nothing >= 0)
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nothing, stream);
+#endif
+  return kept;
+}
+
 /// The child's whole life. It ends without exit handlers, which belong to the parent.
-[[noreturn]] void live_as_child(int pipe, std::chrono::seconds limit,
-                                const std::function<std::string()>& work) {
+[[noreturn]] void live_as_child(pid_t parent, int pipe, const std::string& where,
+                                const IsolationLimits& limits, const std::function<std::string()>& work) {
   for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGINT, SIGTERM, SIGPIPE})
     std::signal(signal, SIG_DFL);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // or it works on when the parent is killed
-  const auto seconds = static_cast<rlim_t>(limit.count());
-  const rlimit time{seconds, seconds};
-  ::setrlimit(RLIMIT_CPU, &time);
-  const rlimit no_core{0, 0};
-  ::setrlimit(RLIMIT_CORE, &no_core);
-#ifndef __SANITIZE_ADDRESS__  // which reserves terabytes
-  const rlimit memory{most_memory, most_memory};
-  ::setrlimit(RLIMIT_AS, &memory);
+  if (::getppid() != parent) ::_exit(1);
+  set_limit(RLIMIT_CPU, static_cast<rlim_t>(std::chrono::ceil<std::chrono::seconds>(limits.time).count()));
+  set_limit(RLIMIT_CORE, 0);
+#ifndef CATOPTRIC_ADDRESS_SANITIZED  // which reserves terabytes
+  set_limit(RLIMIT_AS, address_space() + limits.memory_bytes);
 #endif
+  pipe = keep_only(pipe);
   ExchangeSession::enter_child_process();
-  const std::string bytes = packet_of(work);
+  const std::string bytes = packet_of(where, work);
   for (std::size_t sent = 0; sent < bytes.size();) {
     const ssize_t now = ::write(pipe, bytes.data() + sent, bytes.size() - sent);
     if (now < 0 && errno == EINTR) continue;
@@ -74,11 +106,11 @@ std::string packet_of(const std::function<std::string()>& work) {
   ::_exit(0);
 }
 
-/// Everything the child sends until it closes the pipe, or nothing when the time is over.
+/// Everything the child sends until it closes the pipe, or nothing when the time is over or it is too much.
 std::optional<std::string> receive(int pipe, Clock::time_point deadline) {
   std::string bytes;
   std::array<char, 65536> buffer{};
-  while (true) {
+  while (bytes.size() <= most_bytes) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0) return std::nullopt;
     pollfd ready{pipe, POLLIN, 0};
@@ -90,10 +122,21 @@ std::optional<std::string> receive(int pipe, Clock::time_point deadline) {
     if (got <= 0) return bytes;
     bytes.append(buffer.data(), static_cast<std::size_t>(got));
   }
+  return std::nullopt;
 }
 
-int wait_for(pid_t child) {
+/// How the child ended; one that has closed its pipe and lives on is killed when the time is over.
+int wait_for(pid_t child, Clock::time_point deadline) {
+  using std::chrono::microseconds;
+  constexpr microseconds longest_nap{10000};
   int status = 0;
+  for (microseconds nap{20};; nap = std::min(2 * nap, longest_nap)) {
+    const pid_t ended = ::waitpid(child, &status, WNOHANG);
+    if (ended == child || (ended < 0 && errno != EINTR)) return status;
+    if (Clock::now() >= deadline) break;
+    std::this_thread::sleep_for(nap);
+  }
+  ::kill(child, SIGKILL);
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   return status;
@@ -119,31 +162,33 @@ std::string unpack(std::string_view where, const std::string& bytes) {
 
 }  // namespace
 
-std::string run_isolated(std::string_view where, std::chrono::seconds limit,
+std::string run_isolated(std::string_view where, const IsolationLimits& limits,
                          const std::function<std::string()>& work) {
   std::array<int, 2> ends{};
-  if (::pipe(ends.data()) != 0) refuse(where, std::strerror(errno));
+  // Programs that other threads start must not keep the pipe open.
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) refuse(where, std::strerror(errno));
+  const pid_t parent = ::getpid();
   pid_t child = -1;
   {
     const ExchangeSession session;  // nobody is within OCCT's exchange at the moment of the fork
     child = ::fork();
-    if (child == 0) {
-      ::close(ends[0]);
-      live_as_child(ends[1], limit, work);
-    }
+    if (child == 0) live_as_child(parent, ends[1], std::string(where), limits, work);
   }
+  const int fork_error = errno;
   ::close(ends[1]);
   if (child < 0) {
     ::close(ends[0]);
-    refuse(where, std::strerror(errno));
+    refuse(where, std::strerror(fork_error));
   }
-  const std::optional<std::string> bytes = receive(ends[0], Clock::now() + limit);
+  const auto deadline = Clock::now() + limits.time;
+  const std::optional<std::string> bytes = receive(ends[0], deadline);
   ::close(ends[0]);
-  if (!bytes) ::kill(child, SIGKILL);
-  const int status = wait_for(child);
+  const int status = wait_for(child, bytes ? deadline : Clock::now());
   const bool ran_out =
       !bytes || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL));
-  if (ran_out) refuse(where, fmt::format("OpenCASCADE does not come to an end within {} s", limit.count()));
+  if (ran_out)
+    refuse(where, fmt::format("OpenCASCADE does not come to an end within {} s",
+                              std::chrono::duration<double>(limits.time).count()));
   if (WIFSIGNALED(status))
     refuse(where, fmt::format("it is broken: OpenCASCADE crashes on it (signal {})", WTERMSIG(status)));
   if (WEXITSTATUS(status) != 0) refuse(where, "reading it ended without a result");

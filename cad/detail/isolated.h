@@ -1,19 +1,28 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
 
 namespace catoptric::cad::detail {
 
+/// What a child may use before it is ended.
+struct IsolationLimits {
+  std::chrono::milliseconds time;  ///< by the clock; of the processor in whole seconds
+  std::size_t memory_bytes;        ///< beyond what the program has when it starts the child
+};
+
 /// Runs `work` in a child process and hands back the bytes it returns; CadErrors come through as they are.
 /// OCCT's readers trust a file's pointers: of STEP files with a few wrong characters a third kill the process
 /// (measured on 800), and some keep it busy for ever. A child's death is a message, ours would be a loss.
+/// The child has no files open but its pipe, writes nothing to the terminal and leaves no core; no process
+/// and no file descriptor outlives the call.
 /// @in    where: the file, for messages; `work` must not use other threads
-/// @fails CadError when the child dies, sends nothing or takes longer than `limit`
+/// @fails CadError when the child dies, sends nothing or too much, or takes longer than the limit
 /// @cost  about 2 ms
-std::string run_isolated(std::string_view where, std::chrono::seconds limit,
+std::string run_isolated(std::string_view where, const IsolationLimits& limits,
                          const std::function<std::string()>& work);
 
 }  // namespace catoptric::cad::detail

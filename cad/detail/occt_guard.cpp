@@ -7,6 +7,8 @@
 #include <Message_PrinterOStream.hxx>
 #include <STEPControl_Controller.hxx>
 
+#include "base/sanitized.h"
+
 namespace catoptric::cad::detail {
 namespace {
 
@@ -77,7 +79,7 @@ void ExchangeSession::set(const std::string& name, int value) {
 
 }  // namespace catoptric::cad::detail
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef CATOPTRIC_ADDRESS_SANITIZED
 /// OCCT's exchange tables and STEP writer forget some 4 kB; what our own code forgets is still found.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libTK"; }
 /// Quiet runs print nothing, sanitized or not.
