@@ -4,34 +4,21 @@
 
 #include <array>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
-#include <system_error>
+#include <variant>
 #include <vector>
 
 #include "base/errors.h"
+#include "base/whole_file.h"
 
 namespace catoptric::cad::detail {
 namespace {
 
-constexpr std::uintmax_t greatest_size = 1u << 28;  // 256 MiB; a reflector has some kB
-
 std::string content_of(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status))
-    throw CadError({"there is no such file", file.string(), "", "check the path"});
-  if (!std::filesystem::is_regular_file(status))
-    throw CadError({"this is not a file", file.string(), "", "name a file, not a folder"});
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error || size > greatest_size)
-    throw CadError({"the file is too large", file.string(), "files up to 256 MiB are read", "export less"});
-  std::ifstream in(file, std::ios::binary);
-  std::string content((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in && content.empty())
-    throw CadError({"the file cannot be read", file.string(), "", "check its permissions"});
+  std::variant<std::string, ErrorParts> read = read_whole_file(file);
+  if (ErrorParts* defect = std::get_if<ErrorParts>(&read)) throw CadError(std::move(*defect));
+  std::string content = std::get<std::string>(std::move(read));
   if (content.find_first_not_of(" \t\r\n") == std::string::npos)
     throw CadError({"the file is empty", file.string(), "", "export it again"});
   return content;

@@ -26,6 +26,10 @@ bool fits(std::string_view pattern, std::string_view path) {
   }
 }
 
+std::size_t lengths_differ(std::string_view a, std::string_view b) {
+  return a.size() > b.size() ? a.size() - b.size() : b.size() - a.size();
+}
+
 }  // namespace
 
 const Key* find_key(std::span<const Key> keys, std::string_view path) {
@@ -53,7 +57,9 @@ std::string nearest_path(std::span<const Key> keys, std::string_view path) {
   std::size_t least = std::max<std::size_t>(2, path.size() / 3) + 1;
   const auto last_name = [](std::string_view whole) { return whole.substr(whole.rfind('.') + 1); };
   for (const Key& key : keys) {
-    std::size_t distance = edit_distance(key.path, path);
+    // What is much longer or shorter is not near; a hostile name may have a million letters.
+    const bool comparable = lengths_differ(key.path, path) < least;
+    std::size_t distance = comparable ? edit_distance(key.path, path) : least;
     if (last_name(key.path) == last_name(path)) distance = std::min<std::size_t>(distance, 2);  // wrong table
     if (distance < least) {
       least = distance;
@@ -67,6 +73,7 @@ std::string nearest_choice(const Key& key, std::string_view value) {
   std::string_view best;
   std::size_t least = std::max<std::size_t>(2, value.size() / 3) + 1;
   for (const std::string_view choice : key.choices) {
+    if (lengths_differ(choice, value) >= least) continue;
     const std::size_t distance = edit_distance(choice, value);
     if (distance >= least) continue;
     least = distance;

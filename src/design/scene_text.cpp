@@ -4,22 +4,10 @@
 
 #include "design/scene.h"
 #include "design/search.h"
+#include "design/toml_values.h"
 
 namespace catoptric::design {
 namespace {
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      out += fmt::format("\\{}", c);
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      out += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
-    else
-      out += c;
-  }
-  return out + "\"";
-}
 
 /// Shortest text that reads back as the same double, and as a TOML float.
 std::string number(double value) {

@@ -12,7 +12,8 @@ const Key& known_key(std::span<const Key> keys, const std::string& path, const s
   if (const Key* key = find_key(keys, path)) return *key;
   const std::string near = nearest_path(keys, path);
   throw InputError(
-      {fmt::format("unknown key {}", path), where, "every key must be known, so that no typing error passes",
+      {fmt::format("unknown key {}", shortened(path)), where,
+       "every key must be known, so that no typing error passes",
        near.empty() ? "catoptric --keys lists them all" : fmt::format("did you mean {}?", near)});
 }
 
@@ -54,9 +55,14 @@ void Settings::set(const Override& change) {
   const Key& key = known_key(keys_, change.path, change.where);
   toml::table table;
   try {
-    table = toml::parse("value = " + change.value);
-  } catch (const toml::parse_error&) {  // a bare word: the shell took the quotes away
-    table.insert_or_assign("value", change.value);
+    table = parse_toml("value = " + change.value, change.where);
+  } catch (const InputError&) {  // a bare word: the shell took the quotes away
+    try {
+      table = toml::parse("value = " + quoted(change.value));
+    } catch (const toml::parse_error&) {
+      throw InputError({fmt::format("the value of {} is no text", change.path), change.where,
+                        "it is not in UTF-8", "key=value"});
+    }
   }
   if (table.size() != 1)
     throw InputError(
