@@ -40,7 +40,7 @@ double number(std::string_view cell, const std::string& where) {
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value))
-    throw InputError({fmt::format("\"{}\" is no finite number", cell.substr(0, 40)), where,
+    throw InputError({fmt::format("\"{}\" is no finite number", shortened(cell)), where,
                       "columns are separated by commas, decimals by a point", "check the line"});
   return value;
 }
@@ -75,7 +75,7 @@ CsvTable parse_csv_table(std::string_view text, const std::string& name,
     for (std::size_t i = 0, next = 0; i < cells.size(); ++i)
       if (!skipped(i))
         table.columns[next++].push_back(
-            number(cells[i], fmt::format("{}:{}, column {}", name, line_number, headings[i])));
+            number(cells[i], fmt::format("{}:{}, column {}", name, line_number, shortened(headings[i]))));
     table.lines.push_back(line_number);
   }
   if (table.lines.empty())
@@ -89,11 +89,25 @@ CsvTable read_csv_table(const std::filesystem::path& file, const std::vector<std
 }
 
 const std::vector<double>& column(const CsvTable& table, std::string_view name, const std::string& file) {
-  for (std::size_t i = 0; i < table.names.size(); ++i)
-    if (table.names[i] == name) return table.columns[i];
-  throw InputError({fmt::format("there is no column \"{}\"", name), file,
-                    fmt::format("its columns are {}", fmt::join(table.names, ", ")),
-                    "rename one, or set target.column"});
+  const auto count = std::count(table.names.begin(), table.names.end(), name);
+  if (count > 1)
+    throw InputError({fmt::format("{} columns are named \"{}\"", count, name), file,
+                      "it must be plain which one is meant", "rename or remove the others"});
+  if (count == 0)
+    throw InputError({fmt::format("there is no column \"{}\"", shortened(name)), file,
+                      "its columns are " + shortened(fmt::format("{}", fmt::join(table.names, ", "))),
+                      "rename one, or set target.column"});
+  const auto place = std::find(table.names.begin(), table.names.end(), name) - table.names.begin();
+  return table.columns[static_cast<std::size_t>(place)];
+}
+
+void check_range(const CsvTable& table, const std::vector<double>& values, double least, double greatest,
+                 std::string_view what, const std::string& file) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] >= least && values[i] <= greatest))
+      throw InputError({fmt::format("{} {} is out of range", what, values[i]),
+                        fmt::format("{}:{}", file, table.lines[i]),
+                        fmt::format("it lies between {} and {}", least, greatest), "check the table's unit"});
 }
 
 }  // namespace catoptric::design

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace catoptric::design {
@@ -20,7 +21,12 @@ CsvTable read_csv_table(const std::filesystem::path& file, const std::vector<std
 CsvTable parse_csv_table(std::string_view text, const std::string& name,
                          const std::vector<std::string>& ignored = {});
 
-/// The named column.  @fails InputError that lists the columns there are
+/// The named column.  @fails InputError that lists the columns there are, or when two have the name
 const std::vector<double>& column(const CsvTable& table, std::string_view name, const std::string& file);
+
+/// Refuses values outside [least, greatest], with the line of the first.
+/// @in    what: "radius", for the message
+void check_range(const CsvTable& table, const std::vector<double>& values, double least, double greatest,
+                 std::string_view what, const std::string& file);
 
 }  // namespace catoptric::design

@@ -17,6 +17,11 @@ enum class Quantity { none, length, power_w };
 /// Greatest length a scene may name, in its own unit: wide enough for 1 um parts in metres and 100 km fields
 /// in mm.
 inline constexpr double farthest = 1e12;
+/// Least size it may name: a millionth of what makes sense, while squares and cubes keep all their digits.
+inline constexpr double nearest = 1e-12;
+
+/// Greatest irradiance (W/m^2) or intensity (W/sr) that may be wanted, and weight of a place.
+inline constexpr double greatest_irradiance_w_per_m2 = 1e15, greatest_weight_of_a_place = 1e12;
 
 /// One key. The table of these validates files, fills in defaults, writes scenes out and makes the reference.
 struct Key {

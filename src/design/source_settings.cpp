@@ -41,10 +41,15 @@ SourceSpec source_spec(const Settings& settings, double unit_mm) {
   }
   if (settings.has("source.axis")) {
     spec.axis = vector("source.axis");
-    if (!(spec.axis.norm() > 0))
-      throw settings.error("source.axis", "has no direction", "its length is zero", "[0, 0, 1]");
+    require_direction(settings, "source.axis", spec.axis);
   }
   return spec;
+}
+
+void require_direction(const Settings& settings, const char* path, const Vector3& vector) {
+  constexpr double least_length = 1e-100;  // the squares of shorter ones lose digits
+  if (!(vector.norm() >= least_length))
+    throw settings.error(path, "has no direction", "its length is zero, or nearly", "[0, 0, 1]");
 }
 
 }  // namespace catoptric::design

@@ -13,4 +13,8 @@ void complete_source(Settings& settings);
 /// @fails InputError for an axis without direction
 SourceSpec source_spec(const Settings& settings, double unit_mm);
 
+/// Refuses a vector that is too short to say a direction.
+/// @fails InputError naming the key
+void require_direction(const Settings& settings, const char* path, const Vector3& vector);
+
 }  // namespace catoptric::design

@@ -146,6 +146,8 @@ Target from_table(const Scene& scene) {
   const CsvTable table = read_csv_table(scene.target.file);
   const auto &x = column(table, "x", file), &y = column(table, "y", file), &z = column(table, "z", file);
   const auto& wanted = column(table, scene.target.column, file);
+  for (const auto* each : {&x, &y, &z}) check_range(table, *each, -farthest, farthest, "coordinate", file);
+  check_range(table, wanted, 0, greatest_irradiance_w_per_m2, "irradiance", file);
   const double unit_mm = millimetres_per(scene.unit);
   const double reach_mm = std::hypot(scene.near_field.half_width_mm(), scene.near_field.half_height_mm());
   Target target;
@@ -160,18 +162,12 @@ Target from_table(const Scene& scene) {
            fmt::format("{}:{}", file, table.lines[i]),
            fmt::format("lengths in the table are in {}, the scene's unit", symbol(scene.unit)),
            "check near_field and the table's unit"});
-    if (wanted[i] < 0)
-      throw InputError({fmt::format("irradiance {} W/m^2 is negative", wanted[i]),
-                        fmt::format("{}:{}", file, table.lines[i]), "", ""});
     target.samples.push_back({point_mm, scene.near_field.normal()});
     target.irradiance_w_per_mm2.push_back(from_w_per_m2(wanted[i]));
   }
   if (!scene.target.weight_column.empty()) {
     target.weights = column(table, scene.target.weight_column, file);
-    for (std::size_t i = 0; i < target.weights.size(); ++i)
-      if (target.weights[i] < 0)
-        throw InputError({fmt::format("weight {} is negative", target.weights[i]),
-                          fmt::format("{}:{}", file, table.lines[i]), "", ""});
+    check_range(table, target.weights, 0, greatest_weight_of_a_place, "weight", file);
   }
   return target;
 }

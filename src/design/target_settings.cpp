@@ -8,6 +8,7 @@
 #include <span>
 
 #include "design/csv_table.h"
+#include "design/toml_values.h"
 
 namespace catoptric::design {
 namespace {
@@ -115,14 +116,13 @@ void read_radial_table(const Settings& settings, double unit_mm, TargetSpec& spe
   const std::string file = spec.file.string();
   const CsvTable table = read_csv_table(spec.file);
   const auto &radii = column(table, "radius", file), &wanted = column(table, spec.column, file);
-  if (radii.empty()) throw settings.error("target.file", "holds no rows", "a target needs at least one", "");
+  check_range(table, radii, 0, farthest, "radius", file);
+  check_range(table, wanted, 0, greatest_irradiance_w_per_m2, "irradiance", file);
   for (std::size_t i = 0; i < radii.size(); ++i) {
-    const std::string where = fmt::format("{}:{}", file, table.lines[i]);
-    if (radii[i] < 0 || (i > 0 && !(radii[i] > radii[i - 1])))
-      throw InputError({fmt::format("radius {} is out of order", radii[i]), where,
-                        "radii are not negative and rise from row to row", "sort the table"});
-    if (wanted[i] < 0)
-      throw InputError({fmt::format("irradiance {} W/m^2 is negative", wanted[i]), where, "", ""});
+    if (i > 0 && !(radii[i] > radii[i - 1]))
+      throw InputError({fmt::format("radius {} is out of order", radii[i]),
+                        fmt::format("{}:{}", file, table.lines[i]), "radii rise from row to row",
+                        "sort the table"});
     spec.radii_mm.push_back(radii[i] * unit_mm);
     spec.irradiances_w_per_mm2.push_back(from_w_per_m2(wanted[i]));
   }
@@ -131,16 +131,13 @@ void read_radial_table(const Settings& settings, double unit_mm, TargetSpec& spe
     throw settings.error("target.file", "ends on the axis", "the last radius must be above 0", "");
   if (spec.weight_column.empty()) return;
   spec.table_weights = column(table, spec.weight_column, file);
-  for (std::size_t i = 0; i < spec.table_weights.size(); ++i)
-    if (spec.table_weights[i] < 0)
-      throw InputError({fmt::format("weight {} is negative", spec.table_weights[i]),
-                        fmt::format("{}:{}", file, table.lines[i]), "", ""});
+  check_range(table, spec.table_weights, 0, greatest_weight_of_a_place, "weight", file);
 }
 
 /// So that scene.toml may lie elsewhere.
 void make_absolute(Settings& settings, const std::string& key) {
   const auto absolute = std::filesystem::absolute(settings.folder() / *settings.text(key)).lexically_normal();
-  settings.set({key, "'" + absolute.string() + "'", settings.where(key)});
+  settings.set({key, quoted(absolute.string()), settings.where(key)});
 }
 
 /// Plane angles beyond it lie too far out on the far plane.
@@ -153,13 +150,12 @@ void read_intensities(const Settings& settings, TargetSpec& spec) {
   const auto &angles = column(table, "angle", *file), &wanted = column(table, "intensity", *file);
   if (angles.empty() || !(angles.back() > 0))
     throw settings.error("target.intensity_file", "holds no angle above 0", "", "rows of angle, intensity");
+  check_range(table, wanted, 0, greatest_irradiance_w_per_m2, "intensity", *file);
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const std::string where = fmt::format("{}:{}", *file, table.lines[i]);
     if (angles[i] < 0 || angles[i] > greatest_angle_deg || (i > 0 && !(angles[i] > angles[i - 1])))
       throw InputError({fmt::format("angle {} is out of order", angles[i]), where,
                         fmt::format("angles rise from 0 to {} degrees at most", greatest_angle_deg), ""});
-    if (wanted[i] < 0)
-      throw InputError({fmt::format("intensity {} W/sr is negative", wanted[i]), where, "", ""});
     spec.angles_rad.push_back(angles[i] * pi / 180);
     spec.intensities_w_per_sr.push_back(wanted[i]);
   }
