@@ -7,6 +7,7 @@
 
 #include "base/bernstein.h"
 #include "base/profile_hull.h"
+#include "base/profile_limits.h"
 #include "base/tolerance.h"
 #include "base/units.h"
 
@@ -176,6 +177,10 @@ std::optional<ErrorParts> Profile::find_defect(int degree, std::span<const doubl
   if (points.size() < static_cast<Index>(degree) + 1)
     return ErrorParts{fmt::format("{} control points for degree {}", points.size(), degree), "",
                       "at least degree + 1 control points are needed", "add points or lower the degree"};
+  if (points.size() > most_control_points)
+    return ErrorParts{fmt::format("{} control points are too many", points.size()), "",
+                      fmt::format("at most {} are taken", most_control_points),
+                      "approximate the curve by a spline with fewer"};
   if (auto defect = find_knot_defect(degree, knots, points.size())) return defect;
   if (auto defect = find_point_defect(points)) return defect;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "base/profile_limits.h"
 #include "cad/refine.h"
 #include "design/design_space.h"
 #include "design/run.h"
@@ -84,6 +85,9 @@ Profile refined(const Profile& profile, const std::string& step) {
     throw InputError({fmt::format("\"{}\" does not cut all spans alike", step), "",
                       fmt::format("the generatrix has {} by then: a multiple of that is needed", spans),
                       fmt::format("\"spans {}\"", 2 * spans)});
+  if (static_cast<std::size_t>(number) > most_control_points)
+    throw InputError({fmt::format("\"{}\" makes too many control points", step), "",
+                      fmt::format("a generatrix has at most {}", most_control_points), "fewer spans"});
   return cad::split_spans(profile, number / spans);
 }
 

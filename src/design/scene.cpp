@@ -30,7 +30,7 @@ Vector3 vector(const Settings& settings, const char* path, double factor = 1.0) 
 /// A direction that the user wrote: any length but zero.
 Vector3 direction(const Settings& settings, const char* path) {
   const Vector3 v = vector(settings, path);
-  if (!(v.norm() > 0)) throw settings.error(path, "has no direction", "its length is zero", "[0, 0, 1]");
+  require_direction(settings, path, v);
   return v;
 }
 
@@ -343,12 +343,16 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   return make_scene(std::move(settings));
 }
 
+Scene written_scene(Settings settings) {
+  std::vector<std::string> notes = complete(settings);
+  return build_scene(std::move(settings), std::move(notes));
+}
+
 Scene make_scene(Settings settings) {
   const bool from_nothing = !settings.has("reflector.points") && !settings.has("reflector.profile");
-  std::vector<std::string> notes = complete(settings);
-  Scene scene = build_scene(std::move(settings), std::move(notes));
+  Scene scene = written_scene(std::move(settings));
   if (scene.settings.text("start") != "tailored") return scene;
-  notes = scene.profile_notes;
+  std::vector<std::string> notes = scene.profile_notes;
   Settings tailored = tailored_settings(scene, from_nothing, notes);
   return build_scene(std::move(tailored), std::move(notes));
 }

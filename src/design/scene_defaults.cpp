@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/profile.h"
+#include "base/profile_limits.h"
 #include "cad/profile_import.h"
 #include "design/source_settings.h"
 #include "design/target_settings.h"
@@ -71,6 +72,10 @@ void complete_spline(Settings& settings, const std::string& table) {
     throw settings.error(table + ".points", "is missing", "a generatrix needs control points",
                          table + ".points = [[0, 10], [5, 10], [10, 5]]");
   const std::size_t count = points->size();
+  if (count > most_control_points)
+    throw settings.error(table + ".points", fmt::format("{} control points are too many", count),
+                         fmt::format("at most {} are taken", most_control_points),
+                         "approximate the curve by a spline with fewer");
   fill(settings, table + ".degree", fmt::format("{}", std::clamp<std::size_t>(count - 1, 1, 3)));
   if (!settings.has(table + ".weights")) put(settings, table + ".weights", Numbers(count, 1.0), "default");
   if (!settings.has(table + ".knots")) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <sstream>
 
 #include "design/toml_values.h"
@@ -14,8 +15,8 @@ namespace {
 /// Reads one study with the place of every value at hand.
 class StudyReader {
  public:
-  explicit StudyReader(const std::filesystem::path& file)
-      : folder_(file.parent_path()), name_(file.string()), table_(parse_toml(read_text(file), name_)) {}
+  StudyReader(std::string_view text, const std::filesystem::path& name)
+      : folder_(name.parent_path()), name_(name.string()), table_(parse_toml(text, name_)) {}
 
   Study read() {
     check_keys(table_, "");
@@ -27,13 +28,13 @@ class StudyReader {
     if (!runs || runs->empty())
       throw InputError({"the study has no runs", name_, "each [[runs]] is one variation of the scene",
                         "[[runs]]\nname = \"1\""});
+    std::set<std::string> names;
     for (const toml::node& node : *runs) {
       const toml::table* run = node.as_table();
       if (!run)
         throw InputError({"runs holds something else than tables", where(node), "", "write [[runs]]"});
       study.runs.push_back(read_run(*run));
-      const auto same = [&](const StudyRun& other) { return other.name == study.runs.back().name; };
-      if (std::count_if(study.runs.begin(), study.runs.end(), same) > 1)
+      if (!names.insert(study.runs.back().name).second)
         throw InputError({fmt::format("two runs are named \"{}\"", study.runs.back().name), where(node),
                           "each run has a folder of its own name", ""});
     }
@@ -116,7 +117,11 @@ class StudyReader {
 
 }  // namespace
 
-Study read_study(const std::filesystem::path& file) { return StudyReader(file).read(); }
+Study read_study(const std::filesystem::path& file) { return parse_study(read_text(file), file); }
+
+Study parse_study(std::string_view text, const std::filesystem::path& name) {
+  return StudyReader(text, name).read();
+}
 
 Scene study_scene(const StudyRun& run, const std::vector<Override>& more) {
   std::vector<Override> changes = run.changes;

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "design/run.h"
@@ -32,6 +33,7 @@ struct Study {
 ///   name = "1"; set = {"search.acceleration" = 2.0}; reference = {w1 = 1.0}
 /// @fails InputError as for a scene; names must differ and be fit for folders
 Study read_study(const std::filesystem::path& file);
+Study parse_study(std::string_view text, const std::filesystem::path& name);
 
 /// The scene of one run; `more` comes from the command line and wins.
 /// @fails InputError
