@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# Builds the fuzz targets, tries inputs on each and prints a table.
+#   tests/fuzz/run.sh [RUNS] [TARGET...]     1000000 inputs for each target when left out
+# Needs clang, libclang-rt-14-dev and llvm-14 (Debian) beside what setup.sh installs. SECONDS_EACH=600 in the environment
+# ends every target after so many seconds; BUILD names another build folder. Exit code 1 when anything was found.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+
+runs=${1:-1000000}
+shift || true
+targets=("$@")
+[ ${#targets[@]} -gt 0 ] || targets=(scene override study csv conic layout packet iges step)
+build=${BUILD:-build-fuzz}
+most_seconds=${SECONDS_EACH:-0}
+
+cmake --preset fuzz -B "$build" >/dev/null
+programs=(fuzz_dictionary)
+for target in "${targets[@]}"; do
+  case $target in
+    iges | step) programs+=(fuzz_exchange) ;;
+    *) programs+=("fuzz_$target") ;;
+  esac
+done
+cmake --build "$build" --target "${programs[@]}" >&2
+bin=$build/tests/fuzz
+work=$build/fuzz
+mkdir -p "$work"
+"$bin/fuzz_dictionary" >"$work/dictionary"
+
+# Valid inputs to begin with, and all that ever broke the target.
+seeds() {
+  local folder=$work/corpus/$1
+  mkdir -p "$folder" "$work/found/$1"
+  [ ! -d "data/fuzz/$1" ] || cp data/fuzz/"$1"/* "$folder"
+  case $1 in
+    scene) cp data/paper/start_*.toml data/paper/paraboloid.toml data/examples/*.toml "$folder" ;;
+    study) cp data/paper/table2*.toml "$folder" ;;
+    override) printf 'model.photons=1000\x1esource.position=[0,0,5]\x1etitle=a b' >"$folder/seed" ;;
+    csv)
+      for kind in 0 1 2 3 4; do
+        printf '%sx,y,z,irradiance,move\n0,0,0,1,2\n' "$kind" >"$folder/points_$kind"
+        printf '%sradius,irradiance,weight\n0,1,1\n1,0.5,2\n' "$kind" >"$folder/radial_$kind"
+        printf '%sangle,intensity\n0,1\n10,0.5\n' "$kind" >"$folder/angles_$kind"
+      done
+      ;;
+    layout) cp data/profiles/*.igs "$folder" ;;
+  esac
+}
+
+libfuzzer() {
+  local target=$1 log=$work/$1.log
+  seeds "$target"
+  "$bin/fuzz_$target" "$work/corpus/$target" -runs="$runs" -seed=1 -max_total_time="$most_seconds" -max_len=8192 \
+    -timeout=20 -rss_limit_mb=2048 -dict="$work/dictionary" -artifact_prefix="$work/found/$target/" -print_final_stats=1 \
+    >"$log" 2>&1 || true
+  inputs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
+}
+
+exchange() {
+  local log=$work/$1.log
+  mkdir -p "$work/tmp"
+  local limit=()
+  [ "$most_seconds" -eq 0 ] || limit=(-seconds="$most_seconds")
+  TMPDIR=$work/tmp "$bin/fuzz_exchange" "$1" -runs="$runs" -seed=1 -limit=100 "${limit[@]}" -keep="$work/found/$1" >"$log" 2>&1 || true
+  inputs=$(sed -n 's/^\(iges\|step\) \([0-9]*\) inputs.*/\2/p' "$log" | tail -1)
+}
+
+failed=0
+echo "| target | inputs | seconds | inputs/s | found |"
+echo "|---|---|---|---|---|"
+for target in "${targets[@]}"; do
+  begin=$(date +%s)
+  inputs=0
+  case $target in
+    iges | step) exchange "$target" ;;
+    *) libfuzzer "$target" ;;
+  esac
+  seconds=$(($(date +%s) - begin))
+  found=$(grep -c -E 'FINDING|^SUMMARY: |libFuzzer: (deadly|timeout|out-of-memory)' "$work/$target.log" || true)
+  [ "$found" -eq 0 ] || failed=1
+  echo "| $target | ${inputs:-0} | $seconds | $((${inputs:-0} / (seconds > 0 ? seconds : 1))) | $found |"
+done
+exit $failed

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+
+namespace catoptric::fuzz {
+
+/// A STEP file with free curves, written by hand by the rules of ISO 10303-21 and -42: an arc, a line and a
+/// rational B-spline, one after the other, in the xz plane.
+inline std::string free_curves_step() {
+  return R"(ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION(('free curves'),'2;1');
+FILE_NAME('curves.step','1970-01-01T00:00:00',(''),(''),'','','');
+FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 1 1 1 1 }'));
+ENDSEC;
+DATA;
+#1=APPLICATION_CONTEXT('core data for automotive mechanical design processes');
+#2=PRODUCT_CONTEXT('',#1,'mechanical');
+#3=PRODUCT('curves','curves','',(#2));
+#4=PRODUCT_DEFINITION_FORMATION('','',#3);
+#5=PRODUCT_DEFINITION_CONTEXT('part definition',#1,'design');
+#6=PRODUCT_DEFINITION('design','',#4,#5);
+#7=PRODUCT_DEFINITION_SHAPE('','',#6);
+#8=SHAPE_DEFINITION_REPRESENTATION(#7,#30);
+#9=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));
+#10=(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.));
+#11=(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT());
+#12=UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-7),#9,'distance_accuracy_value','');
+#13=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#12))GLOBAL_UNIT_ASSIGNED_CONTEXT((#9,#10,#11))REPRESENTATION_CONTEXT('','3D'));
+#14=CARTESIAN_POINT('',(0.,0.,0.));
+#15=DIRECTION('',(0.,0.,1.));
+#16=DIRECTION('',(1.,0.,0.));
+#17=AXIS2_PLACEMENT_3D('',#14,#15,#16);
+#18=DIRECTION('',(0.,-1.,0.));
+#19=AXIS2_PLACEMENT_3D('',#14,#18,#16);
+#20=CIRCLE('',#19,50.);
+#21=CARTESIAN_POINT('',(30.,0.,40.));
+#22=CARTESIAN_POINT('',(0.,0.,50.));
+#23=TRIMMED_CURVE('',#20,(#21,PARAMETER_VALUE(0.9272952180016122)),(#22,PARAMETER_VALUE(1.5707963267948966)),.T.,.PARAMETER.);
+#24=DIRECTION('',(0.6,0.,-0.8));
+#25=VECTOR('',#24,1.);
+#26=LINE('',#21,#25);
+#27=CARTESIAN_POINT('',(60.,0.,0.));
+#28=TRIMMED_CURVE('',#26,(#21,PARAMETER_VALUE(0.)),(#27,PARAMETER_VALUE(50.)),.T.,.PARAMETER.);
+#29=GEOMETRIC_CURVE_SET('',(#23,#28,#33));
+#30=GEOMETRICALLY_BOUNDED_WIREFRAME_SHAPE_REPRESENTATION('',(#17,#29),#13);
+#31=CARTESIAN_POINT('',(70.,0.,-20.));
+#32=CARTESIAN_POINT('',(75.,0.,-50.));
+#33=(BOUNDED_CURVE()B_SPLINE_CURVE(2,(#27,#31,#32),.UNSPECIFIED.,.F.,.F.)B_SPLINE_CURVE_WITH_KNOTS((3,3),(0.,1.),.UNSPECIFIED.)CURVE()GEOMETRIC_REPRESENTATION_ITEM()RATIONAL_B_SPLINE_CURVE((1.,1.5,1.))REPRESENTATION_ITEM(''));
+ENDSEC;
+END-ISO-10303-21;
+)";
+}
+
+}  // namespace catoptric::fuzz
