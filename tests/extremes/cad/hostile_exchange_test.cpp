@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cerrno>
 #include <chrono>
@@ -66,7 +67,7 @@ TEST_CASE("a reading process that crashes, hangs or eats all memory is a message
             return "";
           }).find("signal " + std::to_string(signal)) != std::string::npos);
   const auto forever = []() -> std::string {
-    for (volatile int i = 0;; i = i + 1) {
+    for (std::atomic<long> turns{0};; turns.fetch_add(1)) {
     }
   };
   const auto begin = std::chrono::steady_clock::now();
