@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "base/errors.h"
+#include "base/float_traps.h"
 #include "cli/commands.h"
 #include "design/keys.h"
 #include "report/result_json.h"
@@ -134,6 +135,7 @@ int finish(ExitCode code) { return static_cast<int>(code); }
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of the write, and ends with 6
+  trap_float_errors();
   try {
     Parser parser;
     try {

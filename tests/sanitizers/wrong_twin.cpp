@@ -1,0 +1,76 @@
+// Makes one mistake on purpose, so that a build which is to notice it can prove that it does.
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "base/float_traps.h"
+#include "sim/side_by_side.h"
+
+namespace {
+
+constexpr std::size_t many = 10000;
+
+std::vector<double> numbers(many, 1.0);  // and so known to no compiler
+
+/// The pieces add to one sum.
+double race() {
+  double sum = 0;
+  catoptric::sim::side_by_side(many, [&](std::size_t i) { sum += numbers[i]; });
+  return sum;
+}
+
+/// The pieces write what was made before and is read afterwards, each its own: no mistake.
+double no_race() {
+  std::vector<double> slots(many);
+  catoptric::sim::side_by_side(many, [&](std::size_t i) { slots[i] = numbers[i]; });
+  double sum = 0;
+  for (double each : slots) sum += each;
+  return sum;
+}
+
+double out_of_bounds() { return *(numbers.data() + numbers.size()); }
+
+double signed_overflow() { return std::numeric_limits<int>::max() + static_cast<int>(numbers[0]); }
+
+double division() { return numbers[0] / (numbers[1] - 1); }
+
+double ordered_nan() { return numbers[0] * std::numeric_limits<double>::quiet_NaN() < numbers[1] ? 1 : 0; }
+
+/// No mistake where it is allowed.
+double untrapped_division() {
+  const catoptric::UntrappedFloats untrapped;
+  return division();
+}
+
+extern "C" void say_trapped(int) {
+  static constexpr std::string_view text = "trapped\n";
+  _exit(write(STDOUT_FILENO, text.data(), text.size()) > 0 ? 0 : 1);
+}
+
+struct Twin {
+  std::string_view name;
+  double (*run)();
+};
+
+constexpr Twin twins[] = {{"race", race},
+                          {"no_race", no_race},
+                          {"out_of_bounds", out_of_bounds},
+                          {"signed_overflow", signed_overflow},
+                          {"division", division},
+                          {"ordered_nan", ordered_nan},
+                          {"untrapped_division", untrapped_division}};
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  std::signal(SIGFPE, say_trapped);
+  catoptric::trap_float_errors();
+  for (const Twin& twin : twins)
+    if (count == 2 && twin.name == arguments[1])
+      return std::printf("unnoticed: %g\n", twin.run()) > 0 ? 0 : 1;
+  return 2;
+}
