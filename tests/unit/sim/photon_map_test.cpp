@@ -82,6 +82,17 @@ TEST_CASE("fewer photons than neighbours are all taken, and none is dark") {
   CHECK(none.estimate({}, radius(2)).irradiance.empty());
 }
 
+TEST_CASE("as many neighbours as there are photons are all of them, however many cells these fill") {
+  std::vector<Vector2> points;
+  for (int i = 0; i < 1000; ++i) points.push_back({8 * std::cos(i) * i / 1000, 8 * std::sin(i) * i / 1000});
+  const PhotonMap map(field, put(points));
+  for (const std::size_t neighbours : {std::size_t{1000}, std::size_t{5000}}) {
+    const auto got = map.estimate(std::vector{center}, nearest(neighbours));
+    CHECK(got.photons[0] == 1000);
+    CHECK(got.kernel_radius_mm[0] == Approx(8 * 0.999));
+  }
+}
+
 TEST_CASE("photons that all land in one point give a finite number") {
   const PhotonMap map(field, put(std::vector<Vector2>(100, Vector2(0, 0))));
   const auto got = map.estimate(std::vector{center}, nearest(10, Kernel::constant));
