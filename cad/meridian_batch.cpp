@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/float_traps.h"
 #include "base/vector_clones.h"
 #include "cad/meridian_batch_work.h"
 #include "cad/meridian_candidate.h"
@@ -313,6 +314,7 @@ BatchSolver::~BatchSolver() = default;
 const std::array<bool, BatchSolver::most_rays>& BatchSolver::solve(std::span<const Ray> rays,
                                                                    double beyond_mm,
                                                                    std::span<std::optional<Hit>> hits) {
+  const UntrappedFloats untrapped;  // lanes compute on where others of their group have a crossing
   RayGroup* const group = work_->group.data();
   JobList& jobs = work_->jobs;
   NearestHits& nearest = work_->nearest;

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "base/float_traps.h"
 #include "cad/meridian_batch.h"
 #include "cad/meridian_blocks.h"
 #include "cad/meridian_candidate.h"
@@ -105,6 +106,7 @@ class FastProbe final : public MeridianProbe {
 
   /// The hits of the line, unordered, into candidates_; surely those that are wanted.
   void find(const Ray& ray, const NearRay& near, double beyond_mm, Wanted wanted) {
+    const UntrappedFloats untrapped;  // the doubts of double, infinite ones included, go to find_exactly
     ++counts_.rays;
     candidates_.clear();
     if (!near.passes(table_)) return;

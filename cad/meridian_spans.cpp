@@ -149,7 +149,7 @@ SpanTable::SpanTable(const Profile& profile)
     axis_points_known = find_axis_points(piece, degree, axis_points) && axis_points_known;
     spans.push_back(form);
     exact.push_back(piece);
-    Piece<Quad> left, right;
+    Piece<Quad> left{}, right{};  // all their places are rounded later, also those above the degree
     halve(piece, degree, left, right);
     exact_half.push_back(left);
     exact_half.push_back(right);

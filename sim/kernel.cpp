@@ -18,7 +18,7 @@ constexpr std::array<std::pair<Kernel, std::string_view>, 5> names{{{Kernel::sil
 }  // namespace
 
 double kernel_value(Kernel kernel, double t) {
-  if (!(t >= 0 && t <= 1)) return 0;
+  if (!(std::isgreaterequal(t, 0) && std::islessequal(t, 1))) return 0;  // quiet about NaN
   return with_kernel(kernel, [t]<Kernel k>() { return kernel_of_square<k>(t * t); });
 }
 

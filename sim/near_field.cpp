@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/float_traps.h"
 #include "base/units.h"
 
 namespace catoptric::sim {
@@ -23,6 +24,7 @@ void check_size(double size_mm, std::string_view name) {
 }
 
 void check_material(const std::optional<Material>& material) {
+  const UntrappedFloats untrapped;  // NaN is one of the things refused
   if (!material) return;
   if (auto defect = find_defect(*material)) {
     defect->where = "near field";
@@ -31,6 +33,7 @@ void check_material(const std::optional<Material>& material) {
 }
 
 Vector3 unit_normal(const Vector3& center_mm, const Vector3& normal) {
+  const UntrappedFloats untrapped;  // NaN is one of the things refused
   if (!center_mm.allFinite())
     refuse("the centre is not finite", "coordinates are finite numbers", "write three finite numbers");
   if (!normal.allFinite() || normal.isZero(0))

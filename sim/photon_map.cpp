@@ -155,7 +155,7 @@ struct PhotonMap::Parts {
     const double farthest = squares.empty() ? 0 : *std::max_element(squares.begin(), squares.end());
     radius_mm = squares.empty() ? 0 : std::max(least_radius_mm, std::sqrt(farthest));
     KernelSum sum(options.kernel, at.x_mm, at.y_mm, radius_mm);
-    sum.add_squares(squares.data(), squares.size());
+    if (!squares.empty()) sum.add_squares(squares.data(), squares.size());
     return sum;
   }
 

@@ -41,6 +41,7 @@ class EdgeRays {
   }
 
   void land(const Ray& ray, double reach_mm) {
+    if (ray.direction.z() == 0) return;  // level, it lands nowhere
     const double distance_mm = (scene_.near_field.center_mm().z() - ray.origin_mm.z()) / ray.direction.z();
     if (!(distance_mm > 0 && distance_mm <= reach_mm)) return;
     squares_.push_back((ray.origin_mm + distance_mm * ray.direction).head<2>().squaredNorm());

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "base/contract.h"
+#include "base/float_traps.h"
 #include "base/profile.h"
 #include "base/tolerance.h"
 #include "base/units.h"
@@ -28,6 +29,7 @@ namespace {
 }
 
 void check_radii(double cover_mm, std::span<const double> radii_mm) {
+  const UntrappedFloats untrapped;  // NaN is one of the things refused
   const double most_mm = cover_mm * (1 + Tolerance::for_scale(1).length_mm);
   for (double radius : radii_mm)
     if (!(radius >= 0 && radius <= most_mm))
@@ -36,6 +38,7 @@ void check_radii(double cover_mm, std::span<const double> radii_mm) {
 }
 
 void check(const Scene& scene, const RingsOptions& options) {
+  const UntrappedFloats untrapped;  // NaN is one of the things refused
   if (const auto objection = rings_objection(scene))
     refuse("the rung \"rings\" is not valid for this scene", *objection, "use the rung \"photons\"");
   if (options.replicates < 1)

@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "base/errors.h"
+#include "base/float_traps.h"
 #include "base/units.h"
 #include "sim/projection_map.h"
 
 namespace catoptric::sim {
 
 void check_source(const Vector3& position_mm, double power_w, const Vector3& axis) {
+  const UntrappedFloats untrapped;  // NaN is one of the things refused
   if (!position_mm.allFinite())
     throw InputError({"the position is not finite", "source", "coordinates are finite numbers",
                       "write three finite numbers"});
@@ -21,13 +23,17 @@ void check_source(const Vector3& position_mm, double power_w, const Vector3& axi
     throw InputError({"the axis has no direction", "source", "it is a finite vector, not zero", "[0, 0, 1]"});
 }
 
-Vector3 unit_axis(const Vector3& axis) { return axis.stableNormalized(); }
+Vector3 unit_axis(const Vector3& axis) {
+  const UntrappedFloats untrapped;  // what has no direction is refused later
+  return axis.stableNormalized();
+}
 
 double tilt_of(const Vector3& axis) { return std::atan2(std::hypot(axis.x(), axis.y()), std::abs(axis.z())); }
 
 PointSource::PointSource(const Vector3& position_mm, double power_w, double exponent, const Vector3& axis)
     : position_mm_(position_mm), power_w_(power_w), law_{exponent}, axis_(unit_axis(axis)) {
   check_source(position_mm, power_w, axis);
+  const UntrappedFloats untrapped;  // NaN is one of the things refused
   if (!(exponent >= 0 && exponent <= greatest_exponent))
     throw InputError(
         {fmt::format("exponent of {}", exponent), "source",

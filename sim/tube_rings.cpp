@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/float_traps.h"
 #include "base/units.h"
 #include "base/vector_clones.h"
 #include "sim/radial_panels.h"
@@ -332,11 +333,13 @@ void TubeRings::book(const Reach& reach, double error) {
 }
 
 void TubeRings::smoothed(std::span<const double> at_mm, std::span<double> values) const {
+  const UntrappedFloats untrapped;  // lanes compute both sides of a choice
   for (std::size_t i = 0; i < at_mm.size(); ++i)
     values[i] = sum_at(panels_.data(), reaches_.data(), panels_.size(), at_mm[i] / h_);
 }
 
 void TubeRings::moments(double at_mm, std::span<std::array<double, 6>> moments) const {
+  const UntrappedFloats untrapped;  // lanes compute both sides of a choice
   std::fill(moments.begin(), moments.end(), std::array<double, 6>{});
   const double at = at_mm / h_, inner = std::abs(at - 1), outer = at + 1;
   for (std::size_t k = 0; k < panels_.size(); ++k) {

@@ -23,12 +23,29 @@ class UntrappedFloats {
   int before_;
 };
 
+/// Within a library that may compute NaN and infinity, while it calls our code back: traps again, where the
+/// program has them at all.
+class TrappedFloats {
+ public:
+  TrappedFloats();
+  ~TrappedFloats();
+  TrappedFloats(const TrappedFloats&) = delete;
+  TrappedFloats& operator=(const TrappedFloats&) = delete;
+
+ private:
+  int before_;
+};
+
 #else
 
 inline void trap_float_errors() {}
 
 struct [[maybe_unused]] UntrappedFloats {
   UntrappedFloats() {}
+};
+
+struct [[maybe_unused]] TrappedFloats {
+  TrappedFloats() {}
 };
 
 #endif

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "base/contract.h"
+#include "base/float_traps.h"
 #include "base/planar_hits.h"
 #include "base/tolerance.h"
 #include "base/vector_clones.h"
@@ -149,6 +150,7 @@ void PlanarMirror::meet_spans(double beyond_mm, Block& block) const {
 }
 
 void PlanarMirror::first_hits(const PlanarRays& rays, double beyond_mm, const PlanarFirstHits& hits) const {
+  const UntrappedFloats untrapped;  // lanes without a hit compute on; what they have is not taken
   const std::size_t count = rays.x_mm.size();
   CATOPTRIC_EXPECTS(rays.dz.size() == count && hits.distance_mm.size() == count && hits.tz.size() == count);
   Block block;  // not cleared: it is large, and what is read of it is set for every block

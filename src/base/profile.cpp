@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/bernstein.h"
+#include "base/float_traps.h"
 #include "base/profile_hull.h"
 #include "base/profile_limits.h"
 #include "base/tolerance.h"
@@ -66,6 +67,7 @@ std::vector<RationalSpan> split_into_spans(int degree, std::span<const double> k
 }
 
 std::optional<ErrorParts> find_knot_defect(int degree, std::span<const double> knots, Index point_count) {
+  const UntrappedFloats untrapped;  // NaN is one of the defects
   const Index p = static_cast<Index>(degree);
   if (knots.size() != point_count + p + 1)
     return ErrorParts{
@@ -100,6 +102,7 @@ std::optional<ErrorParts> find_knot_defect(int degree, std::span<const double> k
 }
 
 std::optional<ErrorParts> find_point_defect(std::span<const ControlPoint> points) {
+  const UntrappedFloats untrapped;  // NaN is one of the defects
   for (Index i = 0; i < points.size(); ++i) {
     const ControlPoint& point = points[i];
     if (!std::isfinite(point.r_mm) || !std::isfinite(point.z_mm))

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/errors.h"
+#include "base/float_traps.h"
 #include "optim/cached_objective.h"
 
 namespace catoptric::optim {
@@ -24,6 +25,7 @@ void require_option(bool sound, std::string_view name, double value, std::string
 }
 
 void require_sound(const HookeJeevesOptions& options) {
+  const UntrappedFloats untrapped;  // NaN is one of the things refused
   require_option(options.acceleration >= 0 && std::isfinite(options.acceleration), "acceleration",
                  options.acceleration, "it must be 0 or more and finite");
   require_option(options.reduction > 0 && options.reduction < 1, "reduction", options.reduction,
@@ -51,7 +53,7 @@ class Search {
   void explore_around(Trial& trial);
   bool try_move(Trial& trial, std::size_t coordinate, double shift);
   std::optional<std::vector<double>> pattern_point() const;
-  double within_bounds(std::size_t coordinate, double x) const;
+  double moved(std::size_t coordinate, double from, double shift) const;
   void record(std::string_view move);
   void end(Ending ending) {
     if (!ending_) ending_ = ending;
@@ -146,7 +148,7 @@ void Search::explore_around(Trial& trial) {
 
 bool Search::try_move(Trial& trial, std::size_t coordinate, double shift) {
   const double from = trial.x[coordinate];
-  const double to = within_bounds(coordinate, from + shift);
+  const double to = moved(coordinate, from, shift);
   if (to == from || !std::isfinite(to)) return false;
   trial.x[coordinate] = to;
   const auto value = value_at(trial.x);
@@ -175,17 +177,18 @@ std::optional<std::vector<double>> Search::pattern_point() const {
   if (!previous_) return {};
   std::vector<double> point = best_.x;
   for (std::size_t i = 0; i < point.size(); ++i) {
-    const double moved = best_.x[i] + options_.acceleration * (best_.x[i] - (*previous_)[i]);
-    point[i] = within_bounds(i, moved);
+    point[i] = moved(i, best_.x[i], options_.acceleration * (best_.x[i] - (*previous_)[i]));
     if (!std::isfinite(point[i])) return {};
   }
   if (point == best_.x) return {};
   return point;
 }
 
-double Search::within_bounds(std::size_t coordinate, double x) const {
+/// Within the bounds; infinite where there is none and the sum overflows, which is then no move.
+double Search::moved(std::size_t coordinate, double from, double shift) const {
+  const UntrappedFloats untrapped;
   const Variable& variable = problem_.variables[coordinate];
-  return std::clamp(x, variable.lower, variable.upper);
+  return std::clamp(from + shift, variable.lower, variable.upper);
 }
 
 void Search::record(std::string_view move) {

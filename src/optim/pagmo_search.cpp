@@ -13,6 +13,7 @@
 #include <pagmo/population.hpp>
 #include <pagmo/problem.hpp>
 
+#include "base/float_traps.h"
 #include "optim/tally.h"
 
 namespace catoptric::optim {
@@ -21,7 +22,10 @@ namespace {
 /// pagmo's view of the problem.
 struct Objective {
   Tally* tally = nullptr;
-  pagmo::vector_double fitness(const pagmo::vector_double& x) const { return {tally->evaluate(x)}; }
+  pagmo::vector_double fitness(const pagmo::vector_double& x) const {
+    const TrappedFloats trapped;
+    return {tally->evaluate(x)};
+  }
   std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
     return {tally->lower(), tally->upper()};
   }
@@ -87,6 +91,8 @@ pagmo::algorithm algorithm(PagmoMethod method, const PagmoOptions& options, Tall
 }
 
 void evolve(const Problem& problem, PagmoMethod method, const PagmoOptions& options, Tally& tally) {
+  const UntrappedFloats
+      untrapped;  // pagmo's annealing takes exp of what overflows where nothing can be built
   pagmo::population population(pagmo::problem(Objective{&tally}), 0, static_cast<unsigned>(options.seed));
   population.push_back(tally.start(), {tally.start_value()});
   for (int i = 1; i < pagmo_population(method, options, problem.variables.size()); ++i)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/errors.h"
+#include "base/float_traps.h"
 
 namespace catoptric::optim {
 namespace {
@@ -33,6 +34,7 @@ double natural_unit(const Variable& variable) {
 }
 
 void require_sound(const Problem& problem) {
+  const UntrappedFloats untrapped;  // NaN is one of the things refused
   if (problem.variables.empty())
     throw InputError({"there is nothing to search", "", "no variable is free", "name at least one variable"});
   if (!problem.evaluate)

@@ -12,21 +12,30 @@
 
 namespace {
 
-constexpr std::size_t many = 10000;
+constexpr std::size_t pieces = 100;
 
-std::vector<double> numbers(many, 1.0);  // and so known to no compiler
+std::vector<double> numbers(pieces, 1.0);  // and so known to no compiler
+
+/// So long that a second thread comes to take a part.
+void dwell() { usleep(1000); }
 
 /// The pieces add to one sum.
 double race() {
   double sum = 0;
-  catoptric::sim::side_by_side(many, [&](std::size_t i) { sum += numbers[i]; });
+  catoptric::sim::side_by_side(pieces, [&](std::size_t i) {
+    dwell();
+    sum += numbers[i];
+  });
   return sum;
 }
 
 /// The pieces write what was made before and is read afterwards, each its own: no mistake.
 double no_race() {
-  std::vector<double> slots(many);
-  catoptric::sim::side_by_side(many, [&](std::size_t i) { slots[i] = numbers[i]; });
+  std::vector<double> slots(pieces);
+  catoptric::sim::side_by_side(pieces, [&](std::size_t i) {
+    dwell();
+    slots[i] = numbers[i];
+  });
   double sum = 0;
   for (double each : slots) sum += each;
   return sum;

@@ -62,7 +62,9 @@ class QuadricReflector final : public Reflector {
     Distances found;
     if (discriminant < 0) return found;
     const double sum = -(half_first + std::copysign(std::sqrt(discriminant), half_first));
-    for (const double t : {sum / second, constant / sum}) {
+    for (const auto& [above, below] : {std::array{sum, second}, std::array{constant, sum}}) {
+      if (below == 0) continue;
+      const double t = above / below;
       const double z = o.z() + t * d.z();
       if (std::isfinite(t) && t > beyond && z >= z_low_ && z <= z_high_) found.distance[found.count++] = t;
     }
