@@ -19,7 +19,8 @@ std::size_t PhotonGrid::Axis::cell_of(double at) const {
   // Rising in `at`, rounding or not: a point between two others has a cell between theirs.
   const double cell = (at - first) * per_mm;
   if (!(cell > 0)) return 0;
-  return cell < static_cast<double>(cells) ? static_cast<std::size_t>(cell) : cells - 1;  // it may be infinite
+  return cell < static_cast<double>(cells) ? static_cast<std::size_t>(cell)
+                                           : cells - 1;  // it may be infinite
 }
 
 PhotonGrid::Axis PhotonGrid::axis_over(double low, double high, double cell_mm) {
