@@ -194,7 +194,8 @@ TEST_CASE("a free profile is refined as asked, and refinement of anything else i
   CHECK_THAT(refused.output, Contains("search.refine") && Contains("search.free = \"profile\""));
   CHECK_FALSE(std::filesystem::exists(folder / "a"));
 
-  const Ended done = design("--set search.free=profile --set search.method=levenberg-marquardt");
+  const Ended done =
+      design("--set search.free=profile --set search.method=levenberg-marquardt --set start=tailored");
   INFO(done.output);
   REQUIRE((done.code == 0 || done.code == 5));
   const json result = parsed(folder / "a" / "result.json");
