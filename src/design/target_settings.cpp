@@ -136,6 +136,8 @@ void read_radial_table(const Settings& settings, double unit_mm, TargetSpec& spe
 
 /// So that scene.toml may lie elsewhere.
 void make_absolute(Settings& settings, const std::string& key) {
+  if (settings.text(key)->empty())
+    throw settings.error(key, "is empty", "it names a file", "leave it out, or name one");
   const auto absolute = std::filesystem::absolute(settings.folder() / *settings.text(key)).lexically_normal();
   settings.set({key, quoted(absolute.string()), settings.where(key)});
 }
