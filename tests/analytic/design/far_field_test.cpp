@@ -126,6 +126,6 @@ TEST_CASE("without a table there is no intensity, and bad tables are refused", "
     CHECK(each.metric != Metric::intensity_rmse);
   CHECK_THROWS_WITH(sphere(folder, "0,1\n86,1\n"), Catch::Contains("angle 86"));
   CHECK_THROWS_WITH(sphere(folder, "10,1\n5,1\n"), Catch::Contains("wanted.csv:3"));
-  CHECK_THROWS_WITH(sphere(folder, "0,1\n5,-1\n"), Catch::Contains("negative"));
+  CHECK_THROWS_WITH(sphere(folder, "0,1\n5,-1\n"), Catch::Contains("intensity -1 is out of range"));
   CHECK_THROWS_WITH(sphere(folder, "0,1\n"), Catch::Contains("no angle above 0"));
 }
