@@ -110,6 +110,11 @@ optim::LeastSquaresProblem fit_problem(const Scene& scene, const Target& target)
                                        {},
                                        {},
                                        tubes_options(scene, *scene.model.estimate.kernel_radius_mm)});
+  // As the objective's tubes are: good for what is wanted here, however little of the source's power it is.
+  constexpr double tolerance_of_target = 1e-6;
+  fit->tubes.tolerance_w_per_mm2 =
+      std::min(fit->tubes.tolerance_w_per_mm2,
+               tolerance_of_target * root_mean_square(target.irradiance_w_per_mm2, target.weights));
   std::ranges::sort(fit->radii_mm);
   fit->radii_mm.erase(std::ranges::unique(fit->radii_mm).begin(), fit->radii_mm.end());
   for (const double radius : radii_mm)
