@@ -72,11 +72,18 @@ RingStore::Places CountedRings::places(std::size_t set, double widest) const {
   for (const Segment& segment : segments_) {
     const std::size_t wanted = std::bit_floor(static_cast<std::size_t>(
         std::clamp(widest * segment.per_mm2, 1.0, static_cast<double>(segment.bins))));
-    const double width = static_cast<double>(wanted) / segment.per_mm2;
     for (std::size_t bin = 0; bin < segment.bins; bin += wanted) {
-      places.squares.push_back(segment.low + (static_cast<double>(bin / wanted) + 0.5) * width);
-      places.photons.push_back(
-          static_cast<double>(photons_in(set, segment.first + bin, segment.first + bin + wanted)));
+      // At the photons' own middle: a beam far narrower than the kernel fills a part of one place only.
+      double photons = 0, moment = 0;
+      for (std::size_t i = 0; i < wanted; ++i) {
+        const auto here =
+            static_cast<double>(photons_in(set, segment.first + bin + i, segment.first + bin + i + 1));
+        photons += here;
+        moment += here * (static_cast<double>(i) + 0.5);
+      }
+      const double middle = photons > 0 ? moment / photons : 0.5 * static_cast<double>(wanted);
+      places.squares.push_back(segment.low + (static_cast<double>(bin) + middle) / segment.per_mm2);
+      places.photons.push_back(photons);
     }
   }
   return places;
