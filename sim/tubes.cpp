@@ -114,7 +114,9 @@ TubesField tubes_field(const PointSource& source, const Profile& profile, const 
     field.error_w_per_mm2 = sum.error_w_per_mm2;
     field.rays += sum.rays;
   }
-  for (std::size_t i = 0; i < radii.places.size(); ++i) field.irradiance[i] = values[radii.places[i]];
+  // Interpolation leaves roundings of the peak where there is no light, of either sign.
+  for (std::size_t i = 0; i < radii.places.size(); ++i)
+    field.irradiance[i] = std::max(0.0, values[radii.places[i]]);
   return field;
 }
 
