@@ -1,5 +1,8 @@
 #include "design/judge.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
@@ -158,6 +161,27 @@ void add_intensity(Judgement& judgement, const Target& target, const Candidate& 
               judge_metric(Metric::intensity_rmse, far.scene, far.target, reflected, reflected, direct));
 }
 
+/// A field that reads dark only because no photon lies in any kernel would be stated without noise.
+/// @fails InputError
+void require_seen_light(const Scene& scene, const Judgement& judgement) {
+  if (judgement.rung == sim::Rung::tubes) return;
+  if (judgement.photons == 0)
+    throw scene.settings.error("model.photons", "no photon is sent", "a field without photons is not known",
+                               "100000, or ray tubes where they are valid");
+  // Less than this is stray light at the field's edge, which samples may well not see.
+  constexpr double stray = 1e-3;
+  const double received = judgement.energy.received_w;
+  const bool dark =
+      std::all_of(judgement.reflected.begin(), judgement.reflected.end(), [](double e) { return e == 0; });
+  if (!dark || !(received > stray * judgement.energy.emitted_w)) return;
+  throw scene.settings.error(
+      scene.model.estimate.neighbours ? "model.neighbours" : "model.kernel_radius",
+      "no sample sees any of the light that arrives",
+      fmt::format("the near field receives {:.3g} W, and none of its photons lies in a sample's kernel",
+                  received),
+      "a wider kernel, more photons, or more samples");
+}
+
 AccuracyReport report_of(const sim::AccurateField& field, double asked_rel) {
   return {asked_rel,      field.noise_rel, field.bias_rel,      field.error95_rel, field.proven,
           field.sentence, field.order,     field.spent_photons, field.rays,        field.stages};
@@ -184,6 +208,7 @@ Judgement judge(const Scene& scene, const Target& target, const Candidate& candi
     judgement.counts.add(each.counts);
   }
   fill_fields(judgement, reflected, sharp);
+  require_seen_light(scene, judgement);
   // Where the target is blurred alike, it is the blurred field that compares to it.
   fill_metrics(judgement, with_source(scene, candidate), target, reflected,
                target.through_kernel ? reflected : sharp);
