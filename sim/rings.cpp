@@ -74,7 +74,8 @@ std::vector<double> cuts_for(const Scene& scene, const RingsOptions& options, do
 }
 
 std::size_t bins_for(const RingsOptions& options, std::uint64_t photons_per_set) {
-  constexpr std::size_t fewest = 1024, most = std::size_t{1} << 17;
+  // Few photons too may make a beam a hundredth of the field wide.
+  constexpr std::size_t fewest = std::size_t{1} << 14, most = std::size_t{1} << 17;
   if (options.bins) return std::clamp<std::size_t>(*options.bins, 1, most);
   return std::bit_ceil(std::clamp<std::size_t>(photons_per_set, fewest, most));
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/contract.h"
+#include "base/profile_limits.h"
 #include "design/variables.h"
 #include "sim/disc_source.h"
 
@@ -132,7 +133,8 @@ std::optional<Candidate> SceneFamily::at(std::span<const double> values) const {
   std::vector<double> shape;
   for (const std::size_t place : shape_places_) shape.push_back(values[place]);
   auto profile = std::visit([&](const auto& each) { return each.at(shape); }, shape_);
-  if (!profile) return std::nullopt;
+  if (!profile || weight_ratio(profile->degree(), profile->points()) > greatest_weight_ratio)
+    return std::nullopt;
   Candidate candidate{std::move(*profile), base_.source, base_.mirror};
   for (std::size_t i = 0; i < scene_places_.size(); ++i) {
     const SceneVariable variable = scene_variables_[i];

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/profile_limits.h"
 #include "base/tolerance.h"
 #include "base/units.h"
 #include "design/constraint_settings.h"
@@ -45,25 +46,6 @@ sim::Material material(const Settings& settings, const std::string& table) {
   return result;
 }
 
-/// Greatest ratio of weights that act on one span. Near the span's end a rounding of the parameter moves a
-/// point by this times a rounding of the part: 1e-8 of it.
-constexpr double greatest_weight_ratio = 1e8;
-
-/// Weights of control points that act on one span.
-void check_weights(const Settings& settings, const std::string& table, int degree, const Numbers& weights) {
-  const std::size_t together = static_cast<std::size_t>(degree) + 1;
-  for (std::size_t i = 0; i + together <= weights.size(); ++i) {
-    const auto [least, most] =
-        std::minmax_element(weights.begin() + static_cast<std::ptrdiff_t>(i),
-                            weights.begin() + static_cast<std::ptrdiff_t>(i + together));
-    if (*most <= greatest_weight_ratio * *least) continue;
-    throw settings.error(table + ".weights", fmt::format("weights {} and {} act on one span", *least, *most),
-                         fmt::format("they differ by more than {:g}, which leaves its ends too few digits",
-                                     greatest_weight_ratio),
-                         "bring them nearer; beyond 1e8 the curve follows its control polygon in any case");
-  }
-}
-
 Profile profile(const Settings& settings, const std::string& table, double unit_mm) {
   const Points points = *settings.points(table + ".points");
   const Numbers weights = *settings.numbers(table + ".weights");
@@ -78,7 +60,12 @@ Profile profile(const Settings& settings, const std::string& table, double unit_
   const Numbers knots = *settings.numbers(table + ".knots");
   if (const auto defect = Profile::find_defect(degree, knots, control))
     throw settings.error(table + ".points", defect->what, defect->why, defect->hint);
-  check_weights(settings, table, degree, weights);
+  if (const double ratio = weight_ratio(degree, control); ratio > greatest_weight_ratio)
+    throw settings.error(table + ".weights",
+                         fmt::format("weights act on one span that differ by {:.3g}", ratio),
+                         fmt::format("they may differ by {:g}; beyond that a span's ends have too few digits",
+                                     greatest_weight_ratio),
+                         "bring them nearer; there the curve follows its control polygon in any case");
   return Profile(degree, knots, std::move(control));
 }
 

@@ -42,7 +42,13 @@ void design_is_refused(const std::string& text, const test::Keys& keys, const st
 TEST_CASE("weights too far apart for one span are refused, also of a target", "[extremes]") {
   CHECK_THROWS_WITH(scene(with_mirror("weights = [1e8, 1, 1e-8]\n")),
                     Contains("reflector.weights") && Contains("act on one span"));
-  CHECK_NOTHROW(scene(with_mirror("weights = [1e8, 1, 1]\n")));
+  CHECK_THROWS_WITH(scene(with_mirror("weights = [1.1e6, 1, 1]\n")), Contains("differ by 1.1e+06"));
+  const Scene allowed = scene(with_mirror("weights = [1, 1, 1]\n"));
+  const SceneFamily family(allowed.with(allowed.profile), std::vector<std::string>{"w1"}, allowed.unit);
+  CHECK(family.at(std::array{0.9e6}));  // nor does a search go there
+  CHECK_FALSE(family.at(std::array{1.1e6}));
+  CHECK_FALSE(family.at(std::array{0.9e-6}));
+  CHECK_NOTHROW(scene(with_mirror("weights = [1e6, 1, 1]\n")));
   CHECK_THROWS_WITH(scene(with_mirror("[target]\nkind = \"reflector\"\npoints = [[0, 100], [50, 100], [100, "
                                       "50]]\nweights = [1e-8, 1, 1e8]\n")),
                     Contains("target.weights"));
