@@ -69,8 +69,7 @@ PhotonFields photon_fields(const Scene& scene, std::span<const FieldSample> samp
 }
 
 std::uint64_t photon_memory_bytes(std::uint64_t photons, const EstimateOptions& bandwidth) {
-  constexpr std::uint64_t bytes_of_a_photon = 22;  // measured: 20.4 at the worst moment, flight and map
-  return bytes_of_a_photon * (bandwidth.neighbours ? photons : std::min(photons, photons_of_a_batch));
+  return bytes_of_a_stored_photon * (bandwidth.neighbours ? photons : std::min(photons, photons_of_a_batch));
 }
 
 }  // namespace catoptric::sim

@@ -101,7 +101,7 @@ const std::vector<Key>& scene_table() {
       {.path = "model.kernel", .type = choice, .choices = {"silverman", "epanechnikov", "cone", "gaussian", "constant"}, .standard = "\"silverman\"", .meaning = "weight of a photon by its distance"},
       {.path = "model.sampler", .type = choice, .choices = {"random", "sobol"}, .standard = "\"sobol\"", .meaning = "independent random photons, or Owen-scrambled Sobol points"},
       {.path = "model.replicates", .type = integer, .least = 2, .greatest = 1000, .standard = "8", .meaning = "independent repetitions behind every reported figure, which give its noise"},
-      {.path = "model.most_photons", .type = integer, .least = 10000, .greatest = 1e12, .standard = "100000000", .meaning = "photons that proving an accuracy may spend; at worst all are in memory at once, some 22 bytes each"},
+      {.path = "model.most_photons", .type = integer, .least = 10000, .greatest = 1e12, .standard = "100000000", .meaning = "photons that proving an accuracy may spend; at worst all are in memory at once, some 36 bytes each"},
       {.path = "model.interactions", .type = integer, .least = 1, .greatest = 1e6, .standard = "1000", .meaning = "a photon is stopped after so many meetings with surfaces"},
 
       {.path = "search.method", .type = choice, .choices = {"hooke-jeeves", "levenberg-marquardt", "nelder-mead", "compass", "cma-es", "differential-evolution", "self-adaptive-de", "particle-swarm", "simulated-annealing", "genetic", "none"}, .standard = "\"hooke-jeeves\"", .meaning = "how better mirrors are looked for: the first four go downhill from the start, the others look over the whole box, and with none the mirror is judged as it starts; levenberg-marquardt needs ray tubes"},

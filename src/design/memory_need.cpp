@@ -16,8 +16,6 @@ namespace {
 constexpr std::uint64_t program_bytes = 120'000'000;  // its libraries, files on their way out, bins of rings
 /// Direct, wide, narrow, noise, bias and what they are joined from, for each replicate.
 constexpr std::uint64_t numbers_of_a_sample = 8;
-/// Photons of a proof of accuracy that are in memory at once, flight and map.
-constexpr std::uint64_t bytes_of_a_proof_photon = 22;
 
 std::string size(std::uint64_t bytes) {
   const double megabytes = static_cast<double>(bytes) / 1e6;
@@ -35,7 +33,7 @@ MemoryNeed memory_need(const Scene& scene) {
   const std::uint64_t photons = sim::photon_memory_bytes(scene.model.photons.photons, bandwidth);
   const std::uint64_t samples = numbers_of_a_sample * sizeof(double) * scene.samples * scene.model.replicates;
   if (proof_keeps_photons(scene)) {
-    const std::uint64_t proof = bytes_of_a_proof_photon * scene.model.most_photons;
+    const std::uint64_t proof = sim::bytes_of_a_stored_photon * scene.model.most_photons;
     const std::uint64_t bytes = program_bytes + samples + std::max(proof, photons);
     return {bytes, fmt::format("at most {}: proving the accuracy may keep {} photons (model.most_photons)",
                                size(bytes), scene.model.most_photons)};
@@ -50,7 +48,7 @@ MemoryNeed memory_need(const Scene& scene) {
 std::uint64_t photons_that_fit() {
   const auto available = available_memory_bytes();
   if (!available) return std::numeric_limits<std::uint64_t>::max();
-  return (*available - std::min(*available, program_bytes)) / bytes_of_a_proof_photon;
+  return (*available - std::min(*available, program_bytes)) / sim::bytes_of_a_stored_photon;
 }
 
 bool fits_memory(const Scene& scene) {

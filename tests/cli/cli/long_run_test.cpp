@@ -250,7 +250,7 @@ TEST_CASE("what a scene takes of memory is said before, and what would not fit i
   write_whole(folder / "kept.toml", text);
   const std::string kept = "'" + (folder / "kept.toml").string() + "'" + into(folder, "a");
   const Ended said = program_run("explain '" + (folder / "kept.toml").string() + "'");
-  CHECK_THAT(said.output, Contains("memory") && Contains("88.1 GB") && Contains("all photons are kept"));
+  CHECK_THAT(said.output, Contains("memory") && Contains("144 GB") && Contains("all photons are kept"));
   for (const std::string command : {"simulate ", "design ", "landscape "}) {
     const Ended refused = run_shell("ulimit -v 8000000; '" + program + "' " + command + kept);
     INFO(refused.output);

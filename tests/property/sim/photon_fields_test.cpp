@@ -62,8 +62,8 @@ TEST_CASE("one batch is one map, bit for bit, and the nearest N are never cut in
 
 TEST_CASE("the memory that photons take is bounded by a batch, or grows where all are kept") {
   CHECK(photon_memory_bytes(4'000'000'000, wide) == photon_memory_bytes(photons_of_a_batch, wide));
-  CHECK(photon_memory_bytes(1000, wide) == 22'000);
-  CHECK(photon_memory_bytes(4'000'000'000, nearest) == 88'000'000'000);
+  CHECK(photon_memory_bytes(1000, wide) == 36'000);
+  CHECK(photon_memory_bytes(4'000'000'000, nearest) == 144'000'000'000);
 }
 
 TEST_CASE("photons in flight are given up once a stop is asked for") {
