@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "base/errors.h"
@@ -46,12 +47,13 @@ ConicArc ellipse(const Form& m, const Vector2& start, const Vector2& end) {
   const Vector2 a = start - centre, qa = q * a;
   const Vector2 b = Vector2(-qa.y(), qa.x()) / std::sqrt(q.determinant());
   const double square = a.dot(qa);
-  if (!(square > 0)) refuse("its ellipse has no points");
+  if (!(square > 0 && square < HUGE_VAL) || !b.allFinite()) refuse("its ellipse has no points");
   const Vector2 last = q * (end - centre);
   double angle = std::atan2(b.dot(last), a.dot(last));
   if (angle < 0) angle += 2 * pi;
   if ((end - start).norm() <= end_rel * a.norm()) angle = 2 * pi;
-  const int pieces = static_cast<int>(std::ceil(angle / (pi / 2) - end_rel));
+  if (!std::isfinite(angle)) refuse("its end lies out of the range of numbers");
+  const int pieces = std::max(1, static_cast<int>(std::ceil(angle / (pi / 2) - end_rel)));
   const double half = angle / pieces / 2;
   const auto at = [&](double t, double stretch) -> Vector2 {
     return centre + stretch * (std::cos(t) * a + std::sin(t) * b);
@@ -104,6 +106,9 @@ ConicArc conic_arc(const std::array<double, 6>& coefficients, const Vector2& sta
   const double reach = is_ellipse ? (arc.points[1] - start).norm() : size;
   check_on_conic(m, start, reach);
   check_on_conic(m, end, reach);
+  for (std::size_t i = 0; i < arc.points.size(); ++i)
+    if (!(arc.points[i].allFinite() && arc.weights[i] > 0 && std::isfinite(arc.weights[i])))
+      refuse("it leaves the range of numbers");
   return arc;
 }
 

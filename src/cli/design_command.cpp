@@ -84,7 +84,8 @@ ExitCode design_command(const CommonOptions& options, const DesignOptions& more)
                result.search_seconds, result.photons, result.seconds);
     run.print_files(files);
   }
-  const ExitCode code = with_accuracy(exit_code(result), result.best.judgement);
+  ExitCode code = with_accuracy(exit_code(result), result.best.judgement);
+  if (code == ExitCode::done && control.stopped()) code = ExitCode::interrupted;  // in the verdict
   if (code == ExitCode::done) {
     search.file.remove();
   } else {

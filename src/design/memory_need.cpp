@@ -35,14 +35,22 @@ MemoryNeed memory_need(const Scene& scene) {
   if (proof_keeps_photons(scene)) {
     const std::uint64_t proof = sim::bytes_of_a_stored_photon * scene.model.most_photons;
     const std::uint64_t bytes = program_bytes + samples + std::max(proof, photons);
-    return {bytes, fmt::format("at most {}: proving the accuracy may keep {} photons (model.most_photons)",
-                               size(bytes), scene.model.most_photons)};
+    return {bytes,
+            fmt::format("at most {}: proving the accuracy may keep {} photons (model.most_photons)",
+                        size(bytes), scene.model.most_photons),
+            "model.most_photons", "fewer photons, or a scene that rings or tubes can compute"};
   }
   const std::uint64_t bytes = program_bytes + samples + photons;
-  const char* why = bandwidth.neighbours
-                        ? "all photons are kept, since the nearest are only known when all are there"
-                        : "however many photons, since they are summed batch by batch";
-  return {bytes, fmt::format("at most {}: {}", size(bytes), why)};
+  if (bandwidth.neighbours)
+    return {
+        bytes,
+        fmt::format("at most {}: all photons are kept, since the nearest are only known when all are there",
+                    size(bytes)),
+        "model.photons",
+        "model.kernel_radius instead of model.neighbours, which takes the same for any number of photons"};
+  return {bytes,
+          fmt::format("at most {}: however many photons, since they are summed batch by batch", size(bytes)),
+          "near_field.samples", "fewer near_field.samples or model.replicates"};
 }
 
 std::uint64_t photons_that_fit() {
@@ -60,14 +68,8 @@ void require_memory(const Scene& scene) {
   const MemoryNeed need = memory_need(scene);
   const auto available = available_memory_bytes();
   if (!available || need.bytes <= *available) return;
-  const bool proof = proof_keeps_photons(scene);
-  throw scene.settings.error(
-      proof ? "model.most_photons" : "model.photons", "the scene would not fit into memory",
-      fmt::format("{}; {} are free", need.sentence, size(*available)),
-      proof ? "fewer photons, or a scene that rings or tubes can compute"
-      : scene.model.estimate.neighbours
-          ? "model.kernel_radius instead of model.neighbours, which takes the same for any number of photons"
-          : "fewer near_field.samples or model.replicates");
+  throw scene.settings.error(need.key, "the scene would not fit into memory",
+                             fmt::format("{}; {} are free", need.sentence, size(*available)), need.hint);
 }
 
 }  // namespace catoptric::design

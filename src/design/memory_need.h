@@ -10,7 +10,8 @@ namespace catoptric::design {
 /// Most memory that a run of a scene takes.
 struct MemoryNeed {
   std::uint64_t bytes;
-  std::string sentence;  ///< how much, and for what
+  std::string sentence;    ///< how much, and for what
+  const char *key, *hint;  ///< what of the scene asks for it, and what would take less
 };
 
 /// What `simulate`, `design` and `landscape` of a scene take at most, the program itself included.

@@ -10,6 +10,7 @@
 #include "design/design_space.h"
 #include "design/run.h"
 #include "design/search.h"
+#include "optim/stages.h"
 
 namespace catoptric::design {
 namespace {
@@ -34,26 +35,6 @@ Scene next_scene(const Scene& scene, const Scene& last, Profile profile, const o
   next.search.most_evaluations = scene.search.most_evaluations - so_far.evaluations;
   next.search.most_iterations = scene.search.most_iterations - so_far.iterations;
   return next;
-}
-
-/// A later stage's outcome behind what came before.
-void append_stage(optim::Outcome& all, optim::Outcome stage, const std::string& step) {
-  if (!stage.history.empty()) stage.history.front().move = step;
-  for (optim::Iterate& each : stage.history) {
-    each.k += all.successes;
-    each.iteration += all.iterations;
-    each.evaluations += all.evaluations;
-    all.history.push_back(std::move(each));
-  }
-  all.ending = stage.ending;
-  all.sentence = std::move(stage.sentence);
-  all.best = std::move(stage.best);
-  all.value = stage.value;
-  all.successes += stage.successes;
-  all.iterations += stage.iterations;
-  all.evaluations += stage.evaluations;
-  all.cache_hits += stage.cache_hits;
-  all.restarts += stage.restarts;
 }
 
 bool may_go_on(const RefinedOutcome& found, const Scene& scene) {
@@ -105,7 +86,9 @@ RefinedOutcome search_in_stages(const Scene& scene,
     if (!best || !may_go_on(found, scene)) break;
     Scene next = next_scene(scene, found.last, refined(best->profile, step), found.outcome);
     const long before = found.outcome.evaluations;
-    append_stage(found.outcome, search(next), step);
+    optim::Outcome stage = search(next);
+    if (!stage.history.empty()) stage.history.front().move = step;
+    optim::append(found.outcome, std::move(stage));
     found.last = std::move(next);
     note(step, before);
   }

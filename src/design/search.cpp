@@ -11,6 +11,7 @@
 #include "design/far_field.h"
 #include "design/metrics.h"
 #include "design/search_methods.h"
+#include "optim/stages.h"
 
 namespace catoptric::design {
 namespace {
@@ -25,24 +26,10 @@ Scene with_kernel(const Scene& scene, double radius_mm, const std::vector<double
   return stage;
 }
 
-/// Adds a stage to those before; the values are the stage's own.
+/// Adds a stage to those before, each of its moves with its kernel's name.
 void append_kernel(optim::Outcome& all, optim::Outcome stage, const std::string& kernel) {
-  for (optim::Iterate& each : stage.history) {
-    each.k += all.successes;
-    each.iteration += all.iterations;
-    each.evaluations += all.evaluations;
-    each.move += ", " + kernel;
-    all.history.push_back(std::move(each));
-  }
-  all.successes += stage.successes;
-  all.iterations += stage.iterations;
-  all.evaluations += stage.evaluations;
-  all.cache_hits += stage.cache_hits;
-  all.restarts += stage.restarts;
-  all.ending = stage.ending;
-  all.sentence = std::move(stage.sentence);
-  all.best = std::move(stage.best);
-  all.value = stage.value;
+  for (optim::Iterate& each : stage.history) each.move += ", " + kernel;
+  optim::append(all, std::move(stage));
 }
 
 /// A wide kernel shows few local minima, so each stage ends near the next one's best.

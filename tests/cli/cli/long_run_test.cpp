@@ -138,6 +138,15 @@ TEST_CASE("photons in flight are given up when the user stops, be they a thousan
   CHECK(result["outcome"] == "interrupted");
   CHECK(result["search_value"].is_null());  // the first evaluation was not finished
   CHECK(result["objective"]["noise"] > 0);
+  // the same in the verdict, when the search is over
+  const Ended judged = ended_by("INT", 1.0,
+                                "design '" + paper +
+                                    "start_a.toml' --quiet --set search.method=none --set "
+                                    "model.photons=1000000000" +
+                                    into(folder, "c"));
+  INFO(judged.output);
+  CHECK(judged.code == 130);
+  CHECK(parsed(folder / "c" / "result.json")["objective"]["noise"] > 0);
   const Ended simulated = ended_by("INT", 1.0,
                                    "simulate '" + paper +
                                        "start_a.toml' --quiet --set model.rung=photons --set "

@@ -83,6 +83,17 @@ TEST_CASE("Turned and shifted conics: the equation holds along the arc, from sta
   for (const Vector2& p : points_on(branch)) CHECK(std::abs(value(hyperbola, p)) < 1e-14);
 }
 
+TEST_CASE("An arc hardly longer than what counts as a full turn is one piece") {
+  for (const double angle : {1.2e-6, 1.6e-6, 1e-4}) {
+    const Vector2 end(std::cos(angle), std::sin(angle));
+    const ConicArc arc = conic_arc(unit_circle, {1, 0}, end);
+    CHECK(arc.points.size() == 3);
+    CHECK(arc.points.back() == end);
+    // by the arc's own points, whose coordinates are roundings of 1
+    CHECK(length(points_on(arc)) == Approx(angle).margin(1e-14));
+  }
+}
+
 TEST_CASE("What is no arc of a conic is refused") {
   const double none = std::nan("");
   CHECK_THROWS_AS(conic_arc(unit_circle, {1, 0}, {0, 1.001}), CadError);            // end off the conic
@@ -93,4 +104,12 @@ TEST_CASE("What is no arc of a conic is refused") {
   CHECK_THROWS_AS(conic_arc({1, 0, 0, 0, 1, 0}, {1, -1}, {1, -1}), CadError);       // no length
   CHECK_THROWS_AS(conic_arc({none, 0, 1, 0, 0, -1}, {1, 0}, {0, 1}), CadError);
   CHECK_THROWS_AS(conic_arc(unit_circle, {none, 0}, {0, 1}), CadError);
+  // coefficients whose products leave the range of numbers
+  CHECK_THROWS_AS(conic_arc({-1.7e-93, 1.8e-152, -1.7e-93, 7.4e-320, 0, 0}, {3.3e-28, 0}, {0, 0}), CadError);
+  CHECK_THROWS_AS(conic_arc({1.7e-76, 9.4e-149, 6.5e-85, 3.4e78, 9.4e-61, 0}, {0, 0}, {0, -4.1e304}),
+                  CadError);
+  CHECK_THROWS_AS(conic_arc({-7.6e116, 6.7e151, 2.3e-152, -2.3e-206, 1.8e-322, 0}, {1.7e-77, 6e-317}, {0, 0}),
+                  CadError);
+  CHECK_THROWS_AS(conic_arc({3.5e97, 1.5e-47, 7.8e99, 7.1e-15, 8.6e159, -1.1e-95}, {5.7e223, 0}, {0, 0}),
+                  CadError);
 }
