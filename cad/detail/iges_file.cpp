@@ -6,19 +6,15 @@
 #include <IGESData_IGESWriter.hxx>
 #include <IGESData_Protocol.hxx>
 #include <IGESSelect_WorkLibrary.hxx>
-#include <TCollection_HAsciiString.hxx>
 #include <fstream>
 
+#include "cad/detail/ascii.h"
 #include "cad/detail/exchange_file.h"
 #include "cad/detail/occt_guard.h"
 #include "cad/detail/real_format.h"
 
 namespace catoptric::cad::detail {
 namespace {
-
-Handle(TCollection_HAsciiString) text(const std::string& content) {
-  return new TCollection_HAsciiString(content.c_str());
-}
 
 /// "2026-01-31T12:00:00" as IGES writes it: "20260131.120000".
 std::string iges_date(const std::string& stamp) {
@@ -28,15 +24,15 @@ std::string iges_date(const std::string& stamp) {
 
 void label(const Handle(IGESData_IGESModel) & model, const FileLabels& labels) {
   IGESData_GlobalSection global = model->GlobalSection();
-  global.SetSendName(text(labels.product));
-  global.SetReceiveName(text(labels.product));
-  global.SetFileName(text(labels.file_name));
-  global.SetSystemId(text("catoptric"));
-  global.SetInterfaceVersion(text("Open CASCADE"));
-  global.SetAuthorName(text(labels.author));
-  global.SetCompanyName(text(labels.organization));
-  global.SetDate(text(iges_date(labels.time_stamp)));
-  global.SetLastChangeDate(text(iges_date(labels.time_stamp)));
+  global.SetSendName(ascii(labels.product));
+  global.SetReceiveName(ascii(labels.product));
+  global.SetFileName(ascii(labels.file_name));
+  global.SetSystemId(ascii("catoptric"));
+  global.SetInterfaceVersion(ascii("Open CASCADE"));
+  global.SetAuthorName(ascii(labels.author));
+  global.SetCompanyName(ascii(labels.organization));
+  global.SetDate(ascii(iges_date(labels.time_stamp)));
+  global.SetLastChangeDate(ascii(iges_date(labels.time_stamp)));
   model->SetGlobalSection(global);
 }
 

@@ -15,12 +15,12 @@
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
-#include <TCollection_HAsciiString.hxx>
 #include <XSControl_Controller.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <cstdlib>
 #include <fstream>
 
+#include "cad/detail/ascii.h"
 #include "cad/detail/exchange_file.h"
 #include "cad/detail/occt_guard.h"
 #include "cad/detail/real_format.h"
@@ -37,10 +37,6 @@ struct ContextAccess {
   friend STEPConstruct_ContextTool& context_of(STEPControl_ActorWrite& actor) { return actor.*member; }
 };
 template struct ContextAccess<&STEPControl_ActorWrite::myContext>;
-
-Handle(TCollection_HAsciiString) text(const std::string& content) {
-  return new TCollection_HAsciiString(content.c_str());
-}
 
 std::string schema_name(StepSchema schema) {
   switch (schema) {
@@ -65,16 +61,16 @@ void label_entities(const Handle(StepData_StepModel) & model, const FileLabels& 
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const Handle(Standard_Transient) entity = model->Value(i);
     if (const auto product = Handle(StepBasic_Product)::DownCast(entity); !product.IsNull()) {
-      product->SetName(text(labels.product));
-      product->SetId(text(labels.product));
+      product->SetName(ascii(labels.product));
+      product->SetId(ascii(labels.product));
     } else if (const auto person = Handle(StepBasic_Person)::DownCast(entity); !person.IsNull()) {
-      person->SetId(text(labels.author));
-      person->SetLastName(text(labels.author));
-      person->SetFirstName(text(""));
+      person->SetId(ascii(labels.author));
+      person->SetLastName(ascii(labels.author));
+      person->SetFirstName(ascii(""));
       person->UnSetMiddleNames();
     } else if (const auto firm = Handle(StepBasic_Organization)::DownCast(entity); !firm.IsNull()) {
-      firm->SetId(text(labels.organization));
-      firm->SetName(text(labels.organization));
+      firm->SetId(ascii(labels.organization));
+      firm->SetName(ascii(labels.organization));
     } else if (const auto date = Handle(StepBasic_CalendarDate)::DownCast(entity); !date.IsNull()) {
       date->SetYearComponent(number(stamp, 0, 4));
       date->SetMonthComponent(number(stamp, 5, 2));
@@ -97,9 +93,9 @@ void label_entities(const Handle(StepData_StepModel) & model, const FileLabels& 
 void provide_person(STEPControl_Writer& writer) {
   static const Handle(StepBasic_PersonAndOrganization) both = [] {
     const Handle(StepBasic_Person) person = new StepBasic_Person;
-    person->Init(text(""), true, text(""), true, text(""), false, nullptr, false, nullptr, false, nullptr);
+    person->Init(ascii(""), true, ascii(""), true, ascii(""), false, nullptr, false, nullptr, false, nullptr);
     const Handle(StepBasic_Organization) firm = new StepBasic_Organization;
-    firm->Init(true, text(""), text(""), text(""));
+    firm->Init(true, ascii(""), ascii(""), ascii(""));
     const Handle(StepBasic_PersonAndOrganization) pair = new StepBasic_PersonAndOrganization;
     pair->Init(person, firm);
     return pair;
@@ -112,13 +108,13 @@ void provide_person(STEPControl_Writer& writer) {
 
 void label_header(const Handle(StepData_StepModel) & model, const FileLabels& labels) {
   APIHeaderSection_MakeHeader header(model);
-  header.SetName(text(labels.file_name));
-  header.SetTimeStamp(text(labels.time_stamp));
-  header.SetAuthorValue(1, text(labels.author));
-  header.SetOrganizationValue(1, text(labels.organization));
-  header.SetOriginatingSystem(text("catoptric"));
-  header.SetAuthorisation(text(""));
-  header.SetDescriptionValue(1, text("mirror of revolution"));
+  header.SetName(ascii(labels.file_name));
+  header.SetTimeStamp(ascii(labels.time_stamp));
+  header.SetAuthorValue(1, ascii(labels.author));
+  header.SetOrganizationValue(1, ascii(labels.organization));
+  header.SetOriginatingSystem(ascii("catoptric"));
+  header.SetAuthorisation(ascii(""));
+  header.SetDescriptionValue(1, ascii("mirror of revolution"));
 }
 
 /// Prints the model itself, since the writer's own file has 12 digits.

@@ -36,11 +36,13 @@ std::string without_unit(std::string_view name) {
   return std::string(trimmed(name));
 }
 
-double number(std::string_view cell, const std::string& where) {
+/// `where` is asked only when the cell holds none: a table may have millions.
+template <typename Where>
+double number(std::string_view cell, Where&& where) {
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value))
-    throw InputError({fmt::format("\"{}\" is no finite number", shortened(cell)), where,
+    throw InputError({fmt::format("\"{}\" is no finite number", shortened(cell)), where(),
                       "columns are separated by commas, decimals by a point", "check the line"});
   return value;
 }
@@ -74,8 +76,9 @@ CsvTable parse_csv_table(std::string_view text, const std::string& name,
                         ""});
     for (std::size_t i = 0, next = 0; i < cells.size(); ++i)
       if (!skipped(i))
-        table.columns[next++].push_back(
-            number(cells[i], fmt::format("{}:{}, column {}", name, line_number, shortened(headings[i]))));
+        table.columns[next++].push_back(number(cells[i], [&] {
+          return fmt::format("{}:{}, column {}", name, line_number, shortened(headings[i]));
+        }));
     table.lines.push_back(line_number);
   }
   if (table.lines.empty())

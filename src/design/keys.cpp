@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace catoptric::design {
 namespace {
@@ -33,23 +34,29 @@ std::size_t lengths_differ(std::string_view a, std::string_view b) {
 }  // namespace
 
 const Key* find_key(std::span<const Key> keys, std::string_view path) {
-  const auto found =
-      std::find_if(keys.begin(), keys.end(), [&](const Key& key) { return fits(key.path, path); });
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& key) {
+    return key.path == path || (key.path.find('*') != std::string_view::npos && fits(key.path, path));
+  });
   return found == keys.end() ? nullptr : &*found;
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) cost[i][0] = i;
-  for (std::size_t j = 0; j <= b.size(); ++j) cost[0][j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i)
+  // Of the table of costs only three rows are ever looked at.
+  std::vector<std::size_t> before_last, last, row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  before_last = last = row;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before_last.swap(last);
+    last.swap(row);
+    row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const bool same = a[i - 1] == b[j - 1];
-      cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, cost[i - 1][j - 1] + (same ? 0 : 1)});
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
     }
-  return cost[a.size()][b.size()];
+  }
+  return row[b.size()];
 }
 
 std::string nearest_path(std::span<const Key> keys, std::string_view path) {

@@ -14,10 +14,6 @@
 namespace catoptric::design {
 namespace {
 
-void fill(Settings& settings, const std::string& path, const std::string& value) {
-  if (!settings.has(path)) settings.set({path, value, "default"});
-}
-
 std::string list(const std::vector<double>& values) {
   std::string text = "[";
   for (double value : values) text += fmt::format("{}{}", text.size() > 1 ? ", " : "", value);
@@ -76,7 +72,7 @@ void complete_spline(Settings& settings, const std::string& table) {
     throw settings.error(table + ".points", fmt::format("{} control points are too many", count),
                          fmt::format("at most {} are taken", most_control_points),
                          "approximate the curve by a spline with fewer");
-  fill(settings, table + ".degree", fmt::format("{}", std::clamp<std::size_t>(count - 1, 1, 3)));
+  settings.fill(table + ".degree", fmt::format("{}", std::clamp<std::size_t>(count - 1, 1, 3)));
   if (!settings.has(table + ".weights")) put(settings, table + ".weights", Numbers(count, 1.0), "default");
   if (!settings.has(table + ".knots")) {
     const int degree = static_cast<int>(*settings.integer(table + ".degree"));
@@ -102,11 +98,11 @@ void complete_near_field(Settings& settings) {
   if (!disc) {  // any direction across the normal will do
     const auto n = *settings.numbers("near_field.normal");
     const bool vertical = std::abs(n[0]) <= 0.9 * std::hypot(n[0], n[1], n[2]);
-    fill(settings, "near_field.along", vertical ? "[1.0, 0.0, 0.0]" : "[0.0, 1.0, 0.0]");
+    settings.fill("near_field.along", vertical ? "[1.0, 0.0, 0.0]" : "[0.0, 1.0, 0.0]");
   }
   if (*settings.boolean("near_field.real")) {
-    fill(settings, "near_field.reflectance", "0.0");
-    fill(settings, "near_field.transmittance", "0.0");
+    settings.fill("near_field.reflectance", "0.0");
+    settings.fill("near_field.transmittance", "0.0");
   } else {
     for (const char* key : {"near_field.reflectance", "near_field.transmittance"})
       if (settings.has(key))
@@ -122,7 +118,7 @@ void complete_reference(Settings& settings) {
     if (!a)
       throw settings.error("target.focal_length", "is missing", "a paraboloid needs it",
                            "target.focal_length = 5");
-    fill(settings, "target.rim_radius", fmt::format("{}", 2 * *a));
+    settings.fill("target.rim_radius", fmt::format("{}", 2 * *a));
   }
   if (kind == "reflector") complete_spline(settings, "target");
 }
@@ -136,7 +132,7 @@ void complete_bandwidth(Settings& settings) {
       settings.text("near_field.shape") == "disc"
           ? *settings.number("near_field.radius")
           : 0.5 * std::min(*settings.number("near_field.width"), *settings.number("near_field.height"));
-  fill(settings, "model.kernel_radius", fmt::format("{}", 0.1 * half_width));
+  settings.fill("model.kernel_radius", fmt::format("{}", 0.1 * half_width));
 }
 
 /// A mirror that is to be made from nothing stands in as a bowl of the right number of points until then.
@@ -193,13 +189,13 @@ LengthUnit scene_unit(const Settings& settings) {
 
 std::vector<std::string> complete(Settings& settings) {
   for (const Key& key : scene_keys())
-    if (!key.standard.empty()) fill(settings, std::string(key.path), std::string(key.standard));
+    if (!key.standard.empty()) settings.fill(std::string(key.path), std::string(key.standard));
   complete_source(settings);
   std::vector<std::string> notes = resolve_profile_file(settings);
   complete_start(settings);
   complete_spline(settings, "reflector");
   if (settings.has("reflector.wall"))
-    fill(settings, "reflector.wall_side", "\"outside\"");
+    settings.fill("reflector.wall_side", "\"outside\"");
   else if (settings.has("reflector.wall_side"))
     throw settings.error("reflector.wall_side", "stands alone", "there is no wall", "reflector.wall = 1.0");
   complete_near_field(settings);

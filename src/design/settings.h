@@ -42,6 +42,11 @@ class Settings {
   /// Replaces or adds one value.  @fails InputError as read()
   void set(const Override& change);
 
+  /// Gives a key that is not set the value it has when left out, as text.
+  void fill(const std::string& path, const std::string& value) {
+    if (!has(path)) set({path, value, "default"});
+  }
+
   /// Takes a key away; nothing happens when it is not there.
   void remove(std::string_view path);
 

@@ -39,10 +39,6 @@ bool holds(std::span<const std::string_view> list, std::string_view item) {
   return std::find(list.begin(), list.end(), item) != list.end();
 }
 
-void fill(Settings& settings, const std::string& path, const std::string& value) {
-  if (!settings.has(path)) settings.set({path, value, "default"});
-}
-
 std::string path(std::string_view key) { return "target." + std::string(key); }
 
 void check_keys(const Settings& settings, const std::string& kind) {
@@ -71,7 +67,7 @@ void complete_gaussian(Settings& settings) {
                            ? *settings.number("target.sigma")
                            : *settings.number("target.fwhm") / (2 * std::sqrt(2 * std::log(2.0)));
   constexpr double sigmas = 3;  // beyond, 1.1 % of the power is left
-  fill(settings, "target.radius", fmt::format("{}", sigmas * sigma));
+  settings.fill("target.radius", fmt::format("{}", sigmas * sigma));
 }
 
 void check_rising(const Settings& settings, const std::string& key, const std::vector<double>& radii) {
@@ -169,17 +165,17 @@ void read_intensities(const Settings& settings, TargetSpec& spec) {
 void complete_target(Settings& settings) {
   if (settings.has("target.intensity_file")) {
     make_absolute(settings, "target.intensity_file");
-    fill(settings, "target.intensity_resolution", "2.0");
+    settings.fill("target.intensity_resolution", "2.0");
   } else if (settings.has("target.intensity_resolution")) {
     throw settings.error("target.intensity_resolution", "stands alone", "no intensity is wanted",
                          "target.intensity_file");
   }
   const std::string kind = *settings.text("target.kind");
   check_keys(settings, kind);
-  if (kind == "ring") fill(settings, "target.background", "0.0");
+  if (kind == "ring") settings.fill("target.background", "0.0");
   if (kind == "gaussian") complete_gaussian(settings);
   if (kind == "csv" || kind == "radial") {
-    fill(settings, "target.column", "\"irradiance\"");
+    settings.fill("target.column", "\"irradiance\"");
     make_absolute(settings, "target.file");
   }
 }

@@ -43,6 +43,8 @@ double no_race() {
 
 double out_of_bounds() { return *(numbers.data() + numbers.size()); }
 
+double vector_bounds() { return numbers[numbers.size()]; }
+
 double signed_overflow() { return std::numeric_limits<int>::max() + static_cast<int>(numbers[0]); }
 
 double division() { return numbers[0] / (numbers[1] - 1); }
@@ -55,8 +57,8 @@ double untrapped_division() {
   return division();
 }
 
-extern "C" void say_trapped(int) {
-  static constexpr std::string_view text = "trapped\n";
+extern "C" void say_stopped(int signal) {
+  const std::string_view text = signal == SIGFPE ? "trapped\n" : "aborted\n";
   _exit(write(STDOUT_FILENO, text.data(), text.size()) > 0 ? 0 : 1);
 }
 
@@ -68,6 +70,7 @@ struct Twin {
 constexpr Twin twins[] = {{"race", race},
                           {"no_race", no_race},
                           {"out_of_bounds", out_of_bounds},
+                          {"vector_bounds", vector_bounds},
                           {"signed_overflow", signed_overflow},
                           {"division", division},
                           {"ordered_nan", ordered_nan},
@@ -76,7 +79,8 @@ constexpr Twin twins[] = {{"race", race},
 }  // namespace
 
 int main(int count, char** arguments) {
-  std::signal(SIGFPE, say_trapped);
+  std::signal(SIGFPE, say_stopped);
+  std::signal(SIGABRT, say_stopped);
   catoptric::trap_float_errors();
   for (const Twin& twin : twins)
     if (count == 2 && twin.name == arguments[1])

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,7 +10,13 @@
 
 namespace catoptric::test {
 
-inline const std::string program = CATOPTRIC_PROGRAM;
+/// The program under test: the one built with it, unless the environment names another (one under
+/// sanitizers).
+inline std::string program_under_test() {
+  const char* named = std::getenv("CATOPTRIC_PROGRAM");
+  return named ? named : CATOPTRIC_BUILT_PROGRAM;
+}
+inline const std::string program = program_under_test();
 inline const std::string paper = std::string(CATOPTRIC_DATA) + "/paper/";
 inline const std::string examples = std::string(CATOPTRIC_DATA) + "/examples/";
 

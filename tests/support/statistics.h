@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <ostream>
+#include <stdexcept>
 #include <vector>
 
 namespace catoptric::test {
@@ -15,7 +16,7 @@ namespace catoptric::test {
 /// change. (While they do not, tests repeat to the bit.)
 inline constexpr double overall_false_alarm = 1e-4;
 
-/// Most statistical checks that a room's tests make; main.cpp fails a whole run that makes more.
+/// Most statistical checks that a room's tests make; a run that makes more fails.
 inline constexpr std::size_t checks_of_a_room = 300;
 
 /// The level for each of `tests` so that together they give a false alarm with overall_false_alarm at most.
@@ -40,7 +41,9 @@ struct Verdict {
 
 /// Whether chance alone gives such a deviation often enough, all checks of the room taken together.
 inline Verdict plausible(double p) {
-  ++checks_made;
+  if (++checks_made > checks_of_a_room)
+    throw std::logic_error(
+        "more statistical checks than the level of each allows for: raise checks_of_a_room");
   return {p > level, p};
 }
 

@@ -109,7 +109,7 @@ void hold_to_closed_forms(std::uint64_t count, std::uint64_t stride) {
 
 }  // namespace
 
-TEST_CASE("meridian agrees with the closed forms of five quadrics and loses no ray", "[meridian]") {
+TEST_CASE("meridian agrees with the closed forms of five quadrics and loses no ray", "[meridian][long]") {
   hold_to_closed_forms(100'000, 1);
 }
 

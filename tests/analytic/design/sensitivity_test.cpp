@@ -75,7 +75,7 @@ TEST_CASE("a profile error moves the curve along its normal by what was asked", 
     }
 }
 
-TEST_CASE("what is proportional comes out exactly: power, reflectance", "[sensitivity]") {
+TEST_CASE("what is proportional comes out exactly: power, reflectance", "[sensitivity][long]") {
   const Sensitivity& s = paraboloid();
   const double power_w = paper("paraboloid.toml").source.power_w;
   const ParameterSensitivity& power = of(s, "source_power");
@@ -104,7 +104,8 @@ TEST_CASE("a perfect mirror cannot be better: by photons too it is made worse on
   CHECK(of(s, "reflectance").minus);
 }
 
-TEST_CASE("derivatives by profile errors are those that the tubes' own calculus gives", "[sensitivity]") {
+TEST_CASE("derivatives by profile errors are those that the tubes' own calculus gives",
+          "[sensitivity][long]") {
   const Scene scene = paper("start_a.toml", {{"sensitivity.modes", "2", "test"}});
   const Sensitivity s = run_sensitivity(scene, {});
   const ProfileError error(s.profile);
@@ -130,7 +131,7 @@ TEST_CASE("derivatives by profile errors are those that the tubes' own calculus 
   }
 }
 
-TEST_CASE("the stated tolerances cost what they say, by fresh photons", "[sensitivity]") {
+TEST_CASE("the stated tolerances cost what they say, by fresh photons", "[sensitivity][long]") {
   const Scene scene = paper("paraboloid.toml");
   const Sensitivity& s = paraboloid();
   CHECK(s.budgeted() == s.parameters.size());
@@ -143,7 +144,7 @@ TEST_CASE("the stated tolerances cost what they say, by fresh photons", "[sensit
     }
 }
 
-TEST_CASE("a source beside the axis needs photons, and tilts the field", "[sensitivity]") {
+TEST_CASE("a source beside the axis needs photons, and tilts the field", "[sensitivity][long]") {
   const ParameterSensitivity& across = of(paraboloid(), "source_lateral");
   CHECK(across.rung == sim::Rung::photons);
   CHECK(across.replicates == 4);

@@ -111,7 +111,7 @@ TEST_CASE("direction residuals vanish for the right mirror, and their derivative
   }
 }
 
-TEST_CASE("the paper's starts, and random ones, all reach the paraboloid") {
+TEST_CASE("the paper's starts, and random ones, all reach the paraboloid", "[long]") {
   const FluxMap map = paper_map();
   RandomStream random(7, Purpose::test, 0);
   std::vector<std::pair<double, double>> starts{{1.6, 90}, {1.8, 70}, {std::sqrt(0.5), 50}};

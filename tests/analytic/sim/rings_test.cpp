@@ -162,7 +162,7 @@ TEST_CASE("rings: a conical band lights a ring with two sharp edges") {
     CHECK(value == 0);
 }
 
-TEST_CASE("rings and photons agree, several bounces, absorption and a real field included") {
+TEST_CASE("rings and photons agree, several bounces, absorption and a real field included", "[long]") {
   const auto mirror = cad::make_meridian_reflector(Profile::bezier({{0, 100, 1}, {70, 100, 1}, {60, 20, 1}}));
   const PointSource low({0, 0, 35}, power);
   for (const auto& material : {std::optional<Material>{}, std::optional<Material>{Material{0.4, 0.2}}}) {

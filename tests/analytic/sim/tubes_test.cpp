@@ -277,7 +277,7 @@ TEST_CASE("the error bound holds against a hundred times finer tubes", "[tubes]"
   }
 }
 
-TEST_CASE("the error bound holds on random generatrices, interpolated between radii", "[tubes]") {
+TEST_CASE("the error bound holds on random generatrices, interpolated between radii", "[tubes][long]") {
   std::mt19937_64 engine(20260814);
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine);

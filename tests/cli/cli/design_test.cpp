@@ -74,7 +74,7 @@ TEST_CASE("a search that runs out of evaluations ends with 5 and writes its file
   CHECK(std::filesystem::exists(folder / "a" / "reflector.step"));
 }
 
-TEST_CASE("every search can be asked for by name, keeps to its budget and betters the start") {
+TEST_CASE("every search can be asked for by name, keeps to its budget and betters the start", "[long]") {
   for (const char* method :
        {"hooke-jeeves", "levenberg-marquardt", "nelder-mead", "compass", "cma-es", "differential-evolution",
         "self-adaptive-de", "particle-swarm", "simulated-annealing", "genetic"})
@@ -224,7 +224,7 @@ TEST_CASE("a tailored start, then Levenberg-Marquardt on the whole profile, meet
   CHECK_THAT(result["profile_notes"].dump(), Contains("tailored by the diverging ray map"));
 }
 
-TEST_CASE("a mirror made from nothing is written, and its scene file gives it again bit for bit") {
+TEST_CASE("a mirror made from nothing is written, and its scene file gives it again bit for bit", "[long]") {
   const TemporaryFolder folder;
   const auto design = [&](const std::string& scene, const std::string& out, const std::string& more) {
     const Ended ended =

@@ -218,7 +218,7 @@ TEST_CASE("an accuracy is proven, or the program says how far it got and ends wi
   CHECK_THAT(tilted.output, Contains("tilted"));
 }
 
-TEST_CASE("tradeoff measures, chooses and writes") {
+TEST_CASE("tradeoff measures, chooses and writes", "[long]") {
   const TemporaryFolder folder;
   const Ended ended =
       program_run("tradeoff '" + paper +

@@ -67,7 +67,7 @@ TEST_CASE("A file cut off anywhere is refused") {
   }
 }
 
-TEST_CASE("Wrong characters: a profile or a refusal, never a crash") {
+TEST_CASE("Wrong characters: a profile or a refusal, never a crash", "[long]") {
   const TemporaryFolder folder;
   int refused = 0;
   constexpr int tries = 60;  // a fixed sample; the same mutations run by the thousand found nothing else
@@ -107,7 +107,7 @@ TEST_CASE("Numbers that are none") {
   CHECK(refused >= 2);
 }
 
-TEST_CASE("A count that is not true kills the reading process, not us") {
+TEST_CASE("A count that is not true kills the reading process, not us", "[long]") {
   const TemporaryFolder folder;
   int refused = 0;
   for (const char* count : {"100000", "9999999", "999999999", "-5"}) {

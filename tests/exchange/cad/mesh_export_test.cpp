@@ -74,7 +74,7 @@ TEST_CASE("STL facets of the paraboloid lie on it within the chord tolerance") {
   }
 }
 
-TEST_CASE("STL of a walled mirror closes, looks outward and scales with the unit") {
+TEST_CASE("STL of a walled mirror closes, looks outward and scales with the unit", "[long]") {
   ExportOptions options;
   options.wall = cad::Wall{2};
   options.chord_tolerance_rel = 1e-4;

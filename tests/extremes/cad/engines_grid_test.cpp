@@ -323,7 +323,7 @@ TEST_CASE("meridian and the plane's section find every hit of every shape, ray a
 }
 
 TEST_CASE("occt and mesh lose nothing that does not graze and invent nothing, whatever shape and size",
-          "[extremes]") {
+          "[extremes][long]") {
   std::map<std::string, Sums> occt, mesh;
   for_all(1, [&](const Profile& profile) {
     const std::shared_ptr<const Reflector> reference = cad::make_occt_reflector(profile),

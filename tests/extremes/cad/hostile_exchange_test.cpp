@@ -13,7 +13,6 @@
 #include <iterator>
 #include <thread>
 
-#include "base/sanitized.h"
 #include "cad/detail/byte_packet.h"
 #include "cad/detail/isolated.h"
 #include "cad/detail/profile_packet.h"
@@ -22,6 +21,7 @@
 #include "fuzz/targets/layout.h"
 #include "fuzz/targets/packet.h"
 #include "support/cad/sample_profiles.h"
+#include "support/sanitized.h"
 #include "support/temporary_folder.h"
 
 // Strangers' files, and the child process that reads them: whatever happens there is a message here.
@@ -85,11 +85,10 @@ TEST_CASE("a reading process that crashes, hangs or eats all memory is a message
                 })
             .find("within 0.2 s") != std::string::npos);
   CHECK(std::chrono::steady_clock::now() - begin < 30s);  // on a machine with other work
-#ifndef CATOPTRIC_ADDRESS_SANITIZED                       // which has no memory limit
+  if (test::address_sanitized()) return;                  // which has no memory limit
   CHECK(refusal({5s, std::size_t{100} << 20}, []() -> std::string {
           return std::string(std::size_t{200} << 20, 'x').substr(0, 1);
         }).find("not enough memory") != std::string::npos);
-#endif
 }
 
 TEST_CASE("a reading process says what it will: too much, too little or nonsense is a message") {
@@ -116,7 +115,7 @@ TEST_CASE("a reading process has no file of ours, leaves no core and prints noth
   });
   ::close(ours);
   CHECK(seen == "closed 0");
-#ifndef CATOPTRIC_ADDRESS_SANITIZED  // whose findings are wanted
+  if (test::address_sanitized()) return;  // whose findings are wanted
   CHECK(run_isolated("file.step", usual, [] {
           struct stat out {
           }, nothing{};
@@ -124,7 +123,6 @@ TEST_CASE("a reading process has no file of ours, leaves no core and prints noth
           ::stat("/dev/null", &nothing);
           return std::string(out.st_rdev == nothing.st_rdev ? "silent" : "loud");
         }) == "silent");
-#endif
 }
 
 TEST_CASE("reading works when the program's children are reaped by the system") {

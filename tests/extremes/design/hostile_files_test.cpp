@@ -126,7 +126,7 @@ TEST_CASE("a byte order mark, line ends of other systems and a last line without
   CHECK(scene(scene_start.substr(0, scene_start.size() - 1)).profile == plain.profile);
 }
 
-TEST_CASE("a generatrix of too many control points is refused, a long one is taken, both soon") {
+TEST_CASE("a generatrix of too many control points is refused, a long one is taken, both soon", "[long]") {
   const auto with_points = [](std::size_t count) {
     std::string points;
     for (std::size_t i = 0; i < count; ++i) points += fmt::format("{}[{}, 10]", i ? ", " : "", i);

@@ -107,7 +107,7 @@ std::vector<Profile> profiles() {
 
 }  // namespace
 
-TEST_CASE("a ray has the same hit in any batch as alone, bit for bit", "[meridian]") {
+TEST_CASE("a ray has the same hit in any batch as alone, bit for bit", "[meridian][long]") {
   for (const Profile& profile : profiles()) {
     const auto reflector = cad::make_meridian_reflector(profile);
     const auto probe = reflector->probe();
@@ -119,7 +119,8 @@ TEST_CASE("a ray has the same hit in any batch as alone, bit for bit", "[meridia
   }
 }
 
-TEST_CASE("the first hit is the nearest of all hits: what is passed over lies beyond it", "[meridian]") {
+TEST_CASE("the first hit is the nearest of all hits: what is passed over lies beyond it",
+          "[meridian][long]") {
   for (const Profile& profile : profiles()) {
     const auto reflector = cad::make_meridian_reflector(profile);
     const auto probe = reflector->probe();

@@ -95,7 +95,7 @@ constexpr RayClass reference_classes[] = {RayClass::from_focus, RayClass::isotro
 
 }  // namespace
 
-TEST_CASE("meridian and occt give the same hits on the paper's starts", "[engines]") {
+TEST_CASE("meridian and occt give the same hits on the paper's starts", "[engines][long]") {
   for (const Start& start : starts)
     for (const RayClass which : reference_classes) check(start, which, 700);
 }

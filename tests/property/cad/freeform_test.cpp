@@ -121,7 +121,8 @@ Ray line_through(const Ray& ray, double size) {  // all crossings of the line li
 
 }  // namespace
 
-TEST_CASE("every degree: hits lie on ray and surface, and are as many as brute force finds", "[meridian]") {
+TEST_CASE("every degree: hits lie on ray and surface, and are as many as brute force finds",
+          "[meridian][long]") {
   for (int degree = 1; degree <= 9; ++degree) {
     std::size_t rays = 0, hits = 0, wrong = 0, doubtful = 0;
     double backward = 0;
@@ -176,7 +177,7 @@ TEST_CASE("every degree: hits lie on ray and surface, and are as many as brute f
   }
 }
 
-TEST_CASE("forty wavy spans: culling loses nothing that brute force finds", "[meridian]") {
+TEST_CASE("forty wavy spans: culling loses nothing that brute force finds", "[meridian][long]") {
   std::vector<ControlPoint> points;
   for (int i = 0; i < 43; ++i) {
     const double r = 2.0 * i;

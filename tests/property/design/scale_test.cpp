@@ -221,13 +221,13 @@ TEST_CASE("simulations are the same bits at any power of two and by 1, 2 and 7 t
   for (const Case& each : simulations()) check_bits(each);
 }
 
-TEST_CASE("designs take the same steps at any power of two and by 1, 2 and 7 threads", "[scale]") {
+TEST_CASE("designs take the same steps at any power of two and by 1, 2 and 7 threads", "[scale][long]") {
   for (const Case& each : designs(true)) check_bits(each);
   for (const Case& each : touchy_designs()) check_bits(each);
 }
 
 TEST_CASE("sensitivity and landscape are the same bits at any power of two and by 1, 2 and 7 threads",
-          "[scale]") {
+          "[scale][long]") {
   check_bits(sensing("sensitivity of the paper's", test::paper_scene));
   check_bits(sensing("sensitivity of a disc's", test::disc_scene));
   check_bits(drawing());
@@ -238,7 +238,7 @@ TEST_CASE("a trade-off's errors are the same bits at any power of two and by 1, 
   check_bits(trading());
 }
 
-TEST_CASE("a thousand times smaller or larger, or in another unit, changes roundings only", "[scale]") {
+TEST_CASE("a thousand times smaller or larger, or in another unit, changes roundings only", "[scale][long]") {
   for (const Case& each : simulations()) check_rounding(each);
   for (const Case& each : designs(false)) check_rounding(each);
   check_rounding(sensing("sensitivity", test::paper_scene));

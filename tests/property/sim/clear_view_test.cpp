@@ -51,7 +51,7 @@ class Cases {
 
 }  // namespace
 
-TEST_CASE("a view called clear is clear to the intersection engine", "[clear-view]") {
+TEST_CASE("a view called clear is clear to the intersection engine", "[clear-view][long]") {
   Cases cases;
   int clear = 0, blocked = 0, doubtful = 0;
   for (int i = 0; i < 4000; ++i) {

@@ -107,7 +107,7 @@ void same_hits(const Profile& profile, int rays, std::mt19937_64& random) {
 
 }  // namespace
 
-TEST_CASE("the section in the plane meets what the mirror in space meets", "[planar]") {
+TEST_CASE("the section in the plane meets what the mirror in space meets", "[planar][long]") {
   std::mt19937_64 random(20);
   SECTION("paraboloid") {
     same_hits(Profile::bezier({{0, 100, 1}, {50, 100, 1}, {100, 50, 1}}), 20000, random);

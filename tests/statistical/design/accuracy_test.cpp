@@ -82,7 +82,8 @@ void check_hundred(const std::string& file, double accuracy, sim::Rung rung,
 
 }  // namespace
 
-TEST_CASE("an accuracy that is proven holds in 95 of 100 seeds: a few seeds of the short examples") {
+TEST_CASE("an accuracy that is proven holds in 95 of 100 seeds: a few seeds of the short examples",
+          "[long]") {
   constexpr int seeds = 20;
   const Kept tilted = keep("/examples/tilted_screen.toml", 0.02, seeds, sim::Rung::photons);
   const Kept floor = keep("/examples/diffusing_floor.toml", 0.02, seeds, sim::Rung::rings);
@@ -94,7 +95,7 @@ TEST_CASE("an accuracy that is proven holds in 95 of 100 seeds: a few seeds of t
   }
 }
 
-TEST_CASE("what is stated of a field with a jump holds too: bias is counted as a jump's") {
+TEST_CASE("what is stated of a field with a jump holds too: bias is counted as a jump's", "[long]") {
   constexpr int seeds = 20;
   for (const double accuracy : {0.1, 0.05}) {
     const Kept kept =

@@ -7,7 +7,7 @@
 using namespace catoptric;
 using namespace catoptric::design;
 
-TEST_CASE("a mirror made for an extended source lights evenly where a point's mirror does not") {
+TEST_CASE("a mirror made for an extended source lights evenly where a point's mirror does not", "[long]") {
   Settings settings = Settings::read(CATOPTRIC_DATA "/examples/uniform_disc.toml", scene_keys());
   for (const Override& change :
        {Override{"source.kind", "\"disc\"", "test"}, Override{"source.radius", "5", "test"},

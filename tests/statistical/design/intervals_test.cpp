@@ -60,7 +60,7 @@ constexpr const char* samplers[] = {"random", "sobol"};
 
 }  // namespace
 
-TEST_CASE("the 95 % intervals of field and objective hold the truth for 95 % of 150 seeds") {
+TEST_CASE("the 95 % intervals of field and objective hold the truth for 95 % of 150 seeds", "[long]") {
   for (const char* rung : rungs)
     for (const char* sampler : samplers) {
       const Coverage seen = cover(rung, sampler, 150);

@@ -50,7 +50,7 @@ double mean_noise_rmse(std::uint64_t count, Sampler sampler, int streams) {
 
 }  // namespace
 
-TEST_CASE("RMSE falls as theory says: random photons by N^-1/2, Sobol points faster") {
+TEST_CASE("RMSE falls as theory says: random photons by N^-1/2, Sobol points faster", "[long]") {
   constexpr int streams = 8;
   const double coarse = mean_noise_rmse(1'000, Sampler::random, streams);
   const double fine = mean_noise_rmse(100'000, Sampler::random, streams);
@@ -66,7 +66,7 @@ TEST_CASE("RMSE falls as theory says: random photons by N^-1/2, Sobol points fas
   CHECK(std::log(sobol_fine / sobol_coarse) / std::log(100.0) < -0.65);
 }
 
-TEST_CASE("the reported noise is the spread over streams, for every kernel") {
+TEST_CASE("the reported noise is the spread over streams, for every kernel", "[long]") {
   const std::vector<FieldSample> one{{{20, 10, 0}, {0, 0, 1}}};
   const std::array kernels{Kernel::silverman, Kernel::epanechnikov, Kernel::cone, Kernel::gaussian,
                            Kernel::constant};
@@ -127,7 +127,7 @@ TEST_CASE("photons are recorded as far out as the estimates at the edge reach") 
   }
 }
 
-TEST_CASE("an even field on a real patch reads even up to its edge") {
+TEST_CASE("an even field on a real patch reads even up to its edge", "[long]") {
   for (const auto& patch : {NearField::disc({0, 0, 0}, {0, 0, 1}, 50, Material{0, 0}),
                             NearField::rectangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 80, 50, Material{0, 0})}) {
     TracedPhotons traced;
@@ -182,7 +182,7 @@ TEST_CASE("a real patch reads what the invisible register reads, edge included")
   }
 }
 
-TEST_CASE("a source off the axis: aimed emission gives the field of emission in all directions") {
+TEST_CASE("a source off the axis: aimed emission gives the field of emission in all directions", "[long]") {
   const PointSource aside({15, 0, 45}, power);
   // the same mirror with a profile that says it may be anywhere: no direction is left out
   const test::QuadricReflector everywhere(20'000, -200, 0, 50, 100, test::sphere(0, 500, -500).profile());

@@ -79,7 +79,8 @@ double noise_rmse(std::uint64_t photons, Sampler sampler, double bandwidth,
 
 }  // namespace
 
-TEST_CASE("rings: noise of random photons falls by N^-1/2, of Sobol points by N^-3/2, in bins by 1/N") {
+TEST_CASE("rings: noise of random photons falls by N^-1/2, of Sobol points by N^-3/2, in bins by 1/N",
+          "[long]") {
   // 200 values each: an RMSE is good to 5 %, a slope over a factor of 10 to 0.03; five of these and more for
   // the places' own spread.
   const auto slope = [](double few, double many) { return std::log10(many / few); };
@@ -94,7 +95,7 @@ TEST_CASE("rings: noise of random photons falls by N^-1/2, of Sobol points by N^
   CHECK(slope(counted, noise_rmse(20'000, Sampler::sobol, 500)) == Approx(-1).margin(0.2));
 }
 
-TEST_CASE("rings: the replicates' noise is the noise, and Poisson's for random photons") {
+TEST_CASE("rings: the replicates' noise is the noise, and Poisson's for random photons", "[long]") {
   auto given = options(8'000, Sampler::random, 0);
   given.bandwidth_mm2 = 600;
   constexpr int streams = 300;
@@ -123,7 +124,7 @@ TEST_CASE("rings: the replicates' noise is the noise, and Poisson's for random p
   }
 }
 
-TEST_CASE("rings: the 95 % interval holds the truth for 95 % of 200 seeds") {
+TEST_CASE("rings: the 95 % interval holds the truth for 95 % of 200 seeds", "[long]") {
   for (Sampler sampler : {Sampler::random, Sampler::sobol}) {
     const Coverage seen = coverage(options(4'000, sampler, 0), 200);
     CAPTURE(static_cast<int>(sampler), seen.held, seen.of);

@@ -40,7 +40,7 @@ std::size_t sphere_cell(const Vector3& direction) {
 
 }  // namespace
 
-TEST_CASE("emission fills the projection map evenly") {
+TEST_CASE("emission fills the projection map evenly", "[long]") {
   const auto profile = test::paraboloid().profile();
   constexpr int draws = 400'000, finest = 2000;
   for (const Vector3& source :

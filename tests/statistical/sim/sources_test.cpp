@@ -90,7 +90,7 @@ const Vector3 axes[] = {{0, 0, 1}, {0.5, 0.2, 1}, {1, 0, -0.1}};
 
 }  // namespace
 
-TEST_CASE("a point's emission follows its power of the cosine, wherever and however it stands") {
+TEST_CASE("a point's emission follows its power of the cosine, wherever and however it stands", "[long]") {
   const auto profile = test::paraboloid().profile();
   for (const double exponent : {0.5, 1.0, 3.0, 50.0})
     for (const Vector3& place : places)
@@ -181,7 +181,8 @@ class Careless final : public Source {
 
 }  // namespace
 
-TEST_CASE("photons sent towards the mirror alone carry as much light there as those sent everywhere") {
+TEST_CASE("photons sent towards the mirror alone carry as much light there as those sent everywhere",
+          "[long]") {
   const auto profile = Profile::bezier({{20, 100, 1}, {50, 95, 1}, {100, 60, 1}});
   const auto mirror = cad::make_meridian_reflector(profile);
   const auto field = NearField::disc({0, 0, 0}, {0, 0, 1}, 100);
@@ -287,7 +288,7 @@ TEST_CASE("tubes, rings and photons see the same light of a point with an expone
   }
 }
 
-TEST_CASE("rings and photons see the same light of a disc, and a tiny disc is Lambert's point") {
+TEST_CASE("rings and photons see the same light of a disc, and a tiny disc is Lambert's point", "[long]") {
   const auto field = NearField::disc({0, 0, 0}, {0, 0, 1}, 100);
   const auto samples = along_radius(12);
   const auto mirror =

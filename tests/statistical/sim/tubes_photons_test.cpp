@@ -87,7 +87,7 @@ TEST_CASE("tubes agree with photons on the paper's starts", "[tubes]") {
   }
 }
 
-TEST_CASE("tubes agree with photons on folds, cavities and half-silvered mirrors", "[tubes]") {
+TEST_CASE("tubes agree with photons on folds, cavities and half-silvered mirrors", "[tubes][long]") {
   // A ripple whose light folds over, with kinks at two knots; a deep pot with many bounces; an open shell.
   const Profile ripple(3, {0, 0, 0, 0, 0.3, 0.5, 0.5, 0.5, 0.8, 1, 1, 1, 1},
                        {{0, 95, 1},

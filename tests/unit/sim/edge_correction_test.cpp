@@ -55,7 +55,7 @@ TEST_CASE("a kernel wider than the whole area keeps the area's mass") {
         Approx(1 - std::pow(1 - 0.01, 3)).epsilon(1e-9));
 }
 
-TEST_CASE("the share agrees with counting for every kernel, shape and place") {
+TEST_CASE("the share agrees with counting for every kernel, shape and place", "[long]") {
   const Vector2 places[] = {{0, 0}, {8, 0}, {9.9, 0}, {-6, 7}, {7, -4.9}, {-9.5, 4.5}};
   for (Kernel kernel : all)
     for (const Vector2& at : places)

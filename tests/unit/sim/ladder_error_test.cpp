@@ -97,7 +97,7 @@ constexpr int enough = 178;  // 200 trials at 95 %: 190 with a standard deviatio
 
 }  // namespace
 
-TEST_CASE("the bound holds the true error for 95 % of ladders, smooth or with jumps") {
+TEST_CASE("the bound holds the true error for 95 % of ladders, smooth or with jumps", "[long]") {
   for (const double share : {0.5, 0.84})
     for (const double bias : {0.3, 1.0}) {  // far above the widest kernel's noise
       CAPTURE(share, bias);

@@ -184,7 +184,7 @@ TEST_CASE("impossible options are refused") {
   CHECK_THROWS_AS(PointSource({0, 0, 0}, HUGE_VAL), InputError);
 }
 
-TEST_CASE("photons traced in their planes have the fates and crossings of those traced in space") {
+TEST_CASE("photons traced in their planes have the fates and crossings of those traced in space", "[long]") {
   const PointSource source({0, 0, 50}, 1), low({0, 0, -30}, 1);
   const Profile bowl = Profile::bezier({{0, 100, 1}, {50, 100, 1.6}, {90, 50, 1}});
   const Profile pot = Profile::bezier({{0, 110, 1}, {70, 110, 1}, {70, 60, 3}, {25, 20, 1}});
