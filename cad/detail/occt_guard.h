@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "base/float_traps.h"
 
 namespace catoptric::cad::detail {
 
@@ -24,6 +25,7 @@ namespace catoptric::cad::detail {
 /// @fails CadError
 template <typename Work>
 decltype(auto) guarded(std::string_view doing, std::string_view where, Work&& work) {
+  const UntrappedFloats untrapped;  // OCCT's boxes and domains have infinite ends
   try {
     return std::forward<Work>(work)();
   } catch (const Error&) {

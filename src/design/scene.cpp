@@ -244,7 +244,7 @@ std::vector<optim::Variable> variables(Settings& settings, const Candidate& base
     check_bounds(settings, variable, base);
     if (!(variable.lower < variable.upper))
       throw settings.error(path + ".upper", "the bounds leave no room", "lower must be less than upper",
-                           "swap them");
+                           "swap them, or leave out what is not to move");
     if (variable.start < variable.lower || variable.start > variable.upper)
       throw settings.error(
           path + ".start",

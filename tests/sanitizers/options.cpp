@@ -7,11 +7,12 @@ extern "C" const char* __asan_default_options() {
 
 extern "C" const char* __ubsan_default_options() { return "print_stacktrace=1"; }
 
-// Debian's libtbb is not instrumented: it hands tasks from thread to thread by means the sanitizer cannot see, so that
-// the fields of its own tasks look shared, and so do the references that side_by_side() gives to a task. Only these
-// are left out: by the file that touches them (race_top: deeper frames do not count), and atomics by the functions
-// that touch them, which call nothing of ours. The bodies of our loops stay watched (test "a race is found"); what is
-// ordered before and after a loop is told in sim/side_by_side.cpp, not suppressed.
+// Debian's libtbb is not instrumented: it hands tasks from thread to thread by means the sanitizer cannot
+// see, so that the fields of its own tasks look shared, and so do the references that side_by_side() gives to
+// a task. Only these are left out: by the file that touches them (race_top: deeper frames do not count), and
+// atomics by the functions that touch them, which call nothing of ours. The bodies of our loops stay watched
+// (test "a race is found"); what is ordered before and after a loop is told in sim/side_by_side.cpp, not
+// suppressed.
 extern "C" const char* __tsan_default_suppressions() {
   return "race_top:/oneapi/tbb/\n"
          "race:tbb::detail::d1::node::node\n"
