@@ -1,7 +1,7 @@
 # Every room once more, as object files made under address and undefined-behaviour sanitizers (asan) and, of those that
-# start threads or run in them, under the thread sanitizer (tsan), in the same build: so that the tests, which need not be watched themselves,
-# are compiled once. Objects come first on the command line that links them, and with them the templates and inline
-# functions that they and the tests both have.
+# start threads or run in them, under the thread sanitizer (tsan), in the same build: so that the tests, which need not
+# be watched themselves, are compiled once. Objects come first on the command line that links them, and with them the
+# templates and inline functions that they and the tests both have.
 
 # Compiling costs most of the time that sanitizers take: half of it is saved by units of many files. -O1: the code that is
 # watched must still trace a million rays. Reports name functions; lines (-g1) take an eighth of the compile time, and only
@@ -30,17 +30,14 @@ function(catoptric_add_sanitized_rooms room)
     endif()
     set(needs ${ROOM_LINK})
     list(TRANSFORM needs REPLACE "^catoptric::(.*)$" "catoptric_\\1_${variant}_needs")
-    set(rooms ${ROOM_LINK} catoptric::${room})
-    list(FILTER rooms INCLUDE REGEX "^catoptric::")
-    set(objects "")
-    foreach(each ${rooms})
-      string(REPLACE "catoptric::" "" each ${each})
-      if(NOT each STREQUAL "${room}")
-        get_property(others GLOBAL PROPERTY catoptric_${each}_${variant}_objects)
-        list(APPEND objects ${others})
-      endif()
+    set(below ${ROOM_LINK})
+    list(FILTER below INCLUDE REGEX "^catoptric::")
+    list(TRANSFORM below REPLACE "^catoptric::" "")
+    set(objects $<TARGET_OBJECTS:catoptric_${room}_${variant}>)
+    foreach(each ${below})
+      get_property(others GLOBAL PROPERTY catoptric_${each}_${variant}_objects)
+      list(APPEND objects ${others})
     endforeach()
-    list(APPEND objects $<TARGET_OBJECTS:catoptric_${room}_${variant}>)
     list(REMOVE_DUPLICATES objects)
     set_property(GLOBAL PROPERTY catoptric_${room}_${variant}_objects ${objects})
 
