@@ -18,7 +18,7 @@
 namespace catoptric::sim {
 namespace {
 
-constexpr std::uint64_t sets = 4;             ///< fewer give no spread, more waste the points' evenness
+constexpr std::uint64_t sets_of_photons = 4;  ///< fewer give no spread, more waste the points' evenness
 constexpr std::uint64_t first_photons = 512;  ///< of a set: enough for a forecast
 constexpr std::size_t probes_smooth = 128;    ///< samples by which a stage is judged
 constexpr std::size_t probes_broken = 512;    ///< where what counts may lie along a line
@@ -42,9 +42,10 @@ void check(const Scene& scene, const AccuracyRequest& request) {
   if (!(request.relative > 0 && std::isfinite(request.relative)))
     throw InputError({fmt::format("accuracy of {}", request.relative), "accuracy",
                       "it is the relative error allowed, above 0", "accuracy = 0.01"});
-  if (request.most_photons < sets * first_photons)
+  if (request.most_photons < sets_of_photons * first_photons)
     throw InputError({fmt::format("at most {} photons", request.most_photons), "model.most_photons",
-                      fmt::format("the first look takes {}", sets * first_photons), "allow a million"});
+                      fmt::format("the first look takes {}", sets_of_photons * first_photons),
+                      "allow a million"});
   if (request.model.rung)
     if (const auto objection = rung_objection(*request.model.rung, scene, request.model))
       throw InputError({fmt::format("rung {} cannot light this scene", name(*request.model.rung)),
@@ -81,7 +82,7 @@ class PhotonStages {
         picker_(photon_sets_.cells_of(samples)) {
     field_.rung = rung;
     field_.direct = std::move(direct);
-    field_.sets = sets;
+    field_.sets = sets_of_photons;
     KernelRange range = kernel_range(scene, rung);
     widest_radius_mm_ = range.widest_radius_mm;
     field_.breaks = std::move(range.breaks);
@@ -104,11 +105,11 @@ class PhotonStages {
   void stage(const StagePlan& plan) {
     PhotonOptions photons = request_.photons;
     photons.photons = plan.photons;
-    photons.stream += sets * field_.stages.size();
-    photon_sets_.fly(photons, sets, widest_radius_mm_);
-    field_.spent_photons += sets * plan.photons;
+    photons.stream += sets_of_photons * field_.stages.size();
+    photon_sets_.fly(photons, sets_of_photons, widest_radius_mm_);
+    field_.spent_photons += sets_of_photons * plan.photons;
     judge(plan);
-    field_.stages.push_back({sets * plan.photons, field_.error95_rel});
+    field_.stages.push_back({sets_of_photons * plan.photons, field_.error95_rel});
     stopped_ = request_.watch && !request_.watch(field_.spent_photons, field_.error95_rel);
   }
 
@@ -119,20 +120,16 @@ class PhotonStages {
     const Probes probes =
         picker_.pick(photon_sets_.light_by_cell(), field_.breaks ? probes_broken : probes_smooth);
     ladder_ = photon_sets_.look(picked(samples_, probes), widest_radius_mm_, plan.levels);
-    summary_ = summary_of(ladder_, !field_.breaks, probes.shares);
+    const double emitted = static_cast<double>(sets_of_photons * plan.photons);
+    const double photon_w = photon_sets_.energy().emitted_w / emitted * surviving_share(scene_.mirror);
+    summary_ = summary_of(ladder_, !field_.breaks, probes.shares, {photon_w, scene_.near_field.area_mm2()});
     choice_ = best_choice(summary_);
     rms_ = root_mean_square(mean_of(fields_of(chosen(), choice_.order)),
                             picked(std::span<const double>(field_.direct), probes), probes.shares);
-    double error95 = choice_.error95;
-    if (photon_sets_.counts().stored == 0) {
-      // Light that not one of n photons showed has less than three n-ths of the power (95 %).
-      const double unseen_w = 3 * photon_sets_.energy().emitted_w / static_cast<double>(sets * plan.photons);
-      error95 = unseen_w / scene_.near_field.area_mm2();
-    }
     const double scale = rms_ > 0 ? 1 / rms_ : HUGE_VAL;
     field_.noise_rel = choice_.noise > 0 ? choice_.noise * scale : 0;
     field_.bias_rel = choice_.bias > 0 ? choice_.bias * scale : 0;
-    field_.error95_rel = error95 > 0 ? error95 * scale : 0;
+    field_.error95_rel = choice_.error95 > 0 ? choice_.error95 * scale : 0;
     field_.proven = field_.error95_rel <= request_.relative;
   }
 
@@ -158,8 +155,8 @@ class PhotonStages {
     StagePlan next;
     next.photons = round_up(growth * static_cast<double>(plan.photons));
     const std::uint64_t left = request_.most_photons - std::min(request_.most_photons, field_.spent_photons);
-    if (sets * next.photons > left || next.photons > most_photons) {
-      next.photons = std::bit_floor(std::min(left / sets, most_photons));
+    if (sets_of_photons * next.photons > left || next.photons > most_photons) {
+      next.photons = std::bit_floor(std::min(left / sets_of_photons, most_photons));
       if (next.photons < 2 * plan.photons) return {0, 0};
     }
     const double times = static_cast<double>(next.photons) / static_cast<double>(plan.photons);
@@ -197,6 +194,12 @@ class PhotonStages {
     if (stopped_)
       return fmt::format("interrupted at a relative error of {:.2g} (asked {:g})", field_.error95_rel,
                          request_.relative);
+    if (!std::isfinite(field_.error95_rel))
+      return fmt::format(
+          "not proven: of {} photons none landed beside a sample; allow more with model.most_photons, or "
+          "look "
+          "where the light falls",
+          field_.spent_photons);
     return fmt::format(
         "not proven: after {} photons the relative error may still be {:.2g} (asked {:g}); allow "
         "more with model.most_photons, or ask for less{}",
@@ -223,6 +226,7 @@ AccurateField by_tubes(const Scene& scene, std::span<const FieldSample> samples,
   field.rung = Rung::tubes;
   TubesOptions options;
   options.most_interactions = request.photons.most_interactions;
+  options.most_meetings = 2'000'000;  // a second or two: in cavities photons are worth more
   // The field is at least the direct light, so that a share of it is a share of the field allowed too.
   constexpr double share = 0.1;
   const std::vector<double> dark(direct.size(), 0.0);

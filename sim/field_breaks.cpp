@@ -15,8 +15,8 @@
 namespace catoptric::sim {
 namespace {
 
-constexpr std::size_t rows = 17;     ///< of rays along all of the generatrix
-constexpr std::size_t columns = 32;  ///< of rays round the axis
+constexpr std::size_t rows_of_rays = 17;     ///< of rays along all of the generatrix
+constexpr std::size_t columns_of_rays = 32;  ///< of rays round the axis
 constexpr std::size_t fewest_edge_columns = 32, most_edge_columns = 256;
 
 /// A ray from the source by way of a point of the mirror.
@@ -98,8 +98,8 @@ class Sheet {
   Sheet(const Scene& scene, const SmoothStretch& stretch, std::size_t row_count)
       : scene_(scene), rows_(row_count) {
     const Profile& profile = scene.reflector.profile();
-    const std::vector<Vector3> ways = ways_out(columns);
-    nodes_.reserve(rows_ * columns);
+    const std::vector<Vector3> ways = ways_out(columns_of_rays);
+    nodes_.reserve(rows_ * columns_of_rays);
     const double step = (stretch.last - stretch.first) / static_cast<double>(rows_ - 1);
     for (std::size_t row = 0; row < rows_; ++row) {
       const MeridianPoint at = row == 0 ? stretch.begin
@@ -112,22 +112,22 @@ class Sheet {
 
   /// Without the first and last row: rays to the very vertex and rim cost engines most, and say no more.
   std::span<const Node> inner_nodes() const {
-    return std::span(nodes_).subspan(columns, (rows_ - 2) * columns);
+    return std::span(nodes_).subspan(columns_of_rays, (rows_ - 2) * columns_of_rays);
   }
 
   /// How far from the patch cells stay that turn over, crowd, or partly land nowhere.
   double clear_of_breaks() const {
     std::vector<Cell> cells;
-    cells.reserve((rows_ - 1) * columns);
+    cells.reserve((rows_ - 1) * columns_of_rays);
     for (std::size_t row = 0; row + 1 < rows_; ++row)
-      for (std::size_t column = 0; column < columns; ++column) cells.push_back(cell_at(row, column));
+      for (std::size_t column = 0; column < columns_of_rays; ++column) cells.push_back(cell_at(row, column));
     double clear = HUGE_VAL;
     const auto compare = [&](const Cell& a, const Cell& b) {
       if (!agree(a, b)) clear = std::min({clear, a.clear_mm, b.clear_mm});
     };
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      compare(cells[i], cells[i % columns == columns - 1 ? i + 1 - columns : i + 1]);
-      if (i + columns < cells.size()) compare(cells[i], cells[i + columns]);
+      compare(cells[i], cells[i % columns_of_rays == columns_of_rays - 1 ? i + 1 - columns_of_rays : i + 1]);
+      if (i + columns_of_rays < cells.size()) compare(cells[i], cells[i + columns_of_rays]);
     }
     return clear;
   }
@@ -140,9 +140,10 @@ class Sheet {
   };
 
   Cell cell_at(std::size_t row, std::size_t column) const {
-    const std::size_t next = (column + 1) % columns;
-    const Node* corners[] = {&nodes_[row * columns + column], &nodes_[(row + 1) * columns + column],
-                             &nodes_[(row + 1) * columns + next], &nodes_[row * columns + next]};
+    const std::size_t next = (column + 1) % columns_of_rays;
+    const Node* corners[] = {
+        &nodes_[row * columns_of_rays + column], &nodes_[(row + 1) * columns_of_rays + column],
+        &nodes_[(row + 1) * columns_of_rays + next], &nodes_[row * columns_of_rays + next]};
     Cell cell;
     double nearest = HUGE_VAL;
     Eigen::AlignedBox2d box;
@@ -185,7 +186,7 @@ class Meetings {
         opening_(Opening::of(scene.reflector.profile())),
         lift_mm_(Tolerance::for_scale(scene.reflector.profile().diagonal_mm()).lift_mm) {
     const Vector3 source = scene.source.position_mm();
-    stride_ = source.x() == 0 && source.y() == 0 ? columns : 1;  // on the axis all columns are alike
+    stride_ = source.x() == 0 && source.y() == 0 ? columns_of_rays : 1;  // on the axis all columns are alike
   }
 
   bool hidden(std::span<const Node> nodes) {
@@ -260,7 +261,7 @@ SmoothReach find_breaks(const Scene& scene, UnknownBreaks unknown, double enough
   Meetings meetings(scene);
   const auto stretches = smooth_stretches(scene.reflector.profile());
   constexpr std::size_t fewest_rows = 5;
-  const std::size_t row_count = std::max(fewest_rows, rows / stretches.size());
+  const std::size_t row_count = std::max(fewest_rows, rows_of_rays / stretches.size());
   for (const SmoothStretch& stretch : stretches) {
     const Sheet sheet(scene, stretch, row_count);
     if (meetings.hidden(sheet.inner_nodes())) nearer(0, "part of the mirror lies in a shadow");

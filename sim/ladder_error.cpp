@@ -8,6 +8,7 @@
 
 #include "base/contract.h"
 #include "base/ordered_sum.h"
+#include "base/units.h"
 
 namespace catoptric::sim {
 namespace {
@@ -34,6 +35,20 @@ MeanSquare mean_square(const SetFields& sets, const SetFields* other, std::span<
     variances[i] = shares[i] * square;
   }
   return {ordered_sum(values), ordered_sum(variances)};
+}
+
+/// Mean square of the light that may fall where no set shows any.
+double unseen_square(const LadderLevel& level, std::span<const double> shares, const LadderPhotons& photons) {
+  double dark_share = 0;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const auto is_dark = [i](const std::vector<double>& field) { return field[i] == 0; };
+    if (std::ranges::all_of(level.second, is_dark) && std::ranges::all_of(level.fourth, is_dark))
+      dark_share += shares[i];
+  }
+  constexpr double most_photons_unseen = 3;  // whose mean shows none in 5 % of all cases
+  const double kernel_mm2 = pi * level.kernel_radius_mm * level.kernel_radius_mm;
+  const double brightest = most_photons_unseen * photons.power_w / kernel_mm2;
+  return std::min(dark_share, kernel_mm2 / photons.area_mm2) * brightest * brightest;
 }
 
 /// By how much a mean square with so many independent parts may exceed its expectation, when the expectation
@@ -177,7 +192,8 @@ const SetFields& fields_of(const LadderLevel& level, int order) {
   return order == 2 ? level.second : level.fourth;
 }
 
-LadderSummary summary_of(const BandwidthLadder& ladder, bool smooth, std::span<const double> shares) {
+LadderSummary summary_of(const BandwidthLadder& ladder, bool smooth, std::span<const double> shares,
+                         const LadderPhotons& photons) {
   CATOPTRIC_EXPECTS(ladder.size() >= 2 && ladder.front().second.size() >= 2);
   const std::size_t samples = ladder.front().second.front().size();
   CATOPTRIC_EXPECTS(shares.empty() || shares.size() == samples);
@@ -189,6 +205,7 @@ LadderSummary summary_of(const BandwidthLadder& ladder, bool smooth, std::span<c
     const LadderLevel& at = ladder[level];
     LadderSummary::Level& read = summary.levels.emplace_back();
     read.excess = excess(at.independent, at.second.size());
+    read.unseen = unseen_square(at, shares, photons);
     for (std::size_t i = 0; i < orders.size(); ++i) {
       const SetFields& sets = fields_of(at, orders[i]);
       read.orders[i].variance = mean_square(sets, nullptr, shares).variance;
@@ -218,8 +235,9 @@ LadderChoice best_choice(const LadderSummary& ladder) {
       const double variance = ladder.levels[level].orders[i].variance;
       LadderChoice choice{level, order, std::sqrt(variance), bias_bound(changes, level, decay, least_share),
                           0};
+      const LadderSummary::Level& at = ladder.levels[level];
       choice.error95 =
-          choosers_margin * std::sqrt(variance * ladder.levels[level].excess + choice.bias * choice.bias);
+          choosers_margin * std::sqrt(variance * at.excess + choice.bias * choice.bias + at.unseen);
       if (choice.error95 < best.error95) best = choice;
     }
     if (decay) seen_share = decay->share;
@@ -232,6 +250,7 @@ LadderSummary expected_with(const LadderSummary& ladder, double times_the_photon
   LadderSummary expected = ladder;
   // Down to the same photons in the narrowest kernel; on ever more kernels than today's the excess is less.
   for (double more = shift; more >= 1; --more) expected.levels.push_back(ladder.levels.back());
+  for (auto& level : expected.levels) level.unseen /= times_the_photons * times_the_photons;
   for (std::size_t i = 0; i < orders.size(); ++i) {
     const std::vector<Change> changes = changes_of(ladder, i);
     const auto decay = decay_of(changes, orders[i], ladder.smooth);

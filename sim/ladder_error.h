@@ -25,16 +25,23 @@ struct LadderReading {
 struct LadderSummary {
   struct Level {
     double excess = 1;  ///< by how much a mean square over its kernels may exceed its expectation
+    double unseen = 0;  ///< mean square of what kernels without a photon may hide, W^2/mm^4
     std::array<LadderReading, 2> orders;  ///< second and fourth
   };
   std::vector<Level> levels;  ///< widest first
   bool smooth = false;        ///< the field is known to have no jumps, folds or foci
 };
 
+/// What the sets were made of.
+struct LadderPhotons {
+  double power_w = 0;   ///< of one photon, where the light of all sets together is one field's
+  double area_mm2 = 1;  ///< of the near field
+};
+
 /// @in two levels and two sets at least; smooth: what is known of the field (see field_breaks.h); shares: of
-/// the
-///     field, that each sample stands for, nothing where all stand for the same
-LadderSummary summary_of(const BandwidthLadder& ladder, bool smooth, std::span<const double> shares = {});
+///     the field, that each sample stands for, nothing where all stand for the same
+LadderSummary summary_of(const BandwidthLadder& ladder, bool smooth, std::span<const double> shares = {},
+                         const LadderPhotons& photons = {});
 
 /// One way to read a ladder: a level, and which of its two estimates.
 struct LadderChoice {
@@ -52,7 +59,8 @@ struct LadderChoice {
 /// each further narrowing changes, as far as the changes stand out of their own noise; from there on they are
 /// continued as the geometric series that the last ones make: a quarter or half a step where they show, or
 /// where it is known, that the field is smooth, else as slowly as at a jump. Where not even the widest kernel
-/// shows a change, that is taken which noise could hide.
+/// shows a change, that is taken which noise could hide. Kernels in which no photon landed show neither noise
+/// nor change: all of them together may still get the light of three photons (95 %), and all in one place.
 /// @from  Lepski 1991 for the comparison of bandwidths
 LadderChoice best_choice(const LadderSummary& ladder);
 

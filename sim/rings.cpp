@@ -168,10 +168,10 @@ void estimate_all(const RingStore& store, std::span<const double> powers, std::s
   store.estimate(places, options.kernel, field.bandwidth_mm2, [&](std::size_t i, const RingDensity& density) {
     const RingEstimate at = estimator(density);
     field.bias[i] = at.second - at.fourth;
-    field.irradiance[i] = std::max(0.0, at.second);
+    field.irradiance[i] = at.second;
     field.noise[i] = std::sqrt(at.second_variance);
     field.poisson_noise[i] = std::sqrt(at.second_poisson);
-    field.debiased[i] = std::max(0.0, at.fourth);
+    field.debiased[i] = at.fourth;
     field.debiased_noise[i] = std::sqrt(at.fourth_variance);
   });
 }
@@ -254,9 +254,12 @@ const PhotonCounts& RingPhotons::counts() const { return parts_->landed.counts; 
 RingsField RingPhotons::estimate(std::span<const double> radii_mm) {
   const double cover = parts_->cover_mm * parts_->cover_mm;
   const auto& wanted = parts_->options.bandwidth_mm2;
-  return estimate(
+  RingsField field = estimate(
       radii_mm,
       wanted ? *wanted : choose_bandwidth(*parts_->store, parts_->powers, parts_->options.kernel, cover));
+  for (auto* values : {&field.irradiance, &field.debiased})
+    for (double& value : *values) value = std::max(0.0, value);
+  return field;
 }
 
 RingsField RingPhotons::estimate(std::span<const double> radii_mm, double bandwidth_mm2) {

@@ -87,7 +87,8 @@ class RingPhotons {
   /// @in    radii in [0, the farthest point of the near field]
   /// @fails InputError for another radius
   RingsField estimate(std::span<const double> radii_mm);
-  /// The same with another bandwidth, no wider than widest_bandwidth_mm2().
+  /// The same with another bandwidth, no wider than widest_bandwidth_mm2(). Beside steep light these kernels
+  /// read less than nothing; it is left so, for what is cut off shows neither spread nor change.
   RingsField estimate(std::span<const double> radii_mm, double bandwidth_mm2);
 
   /// Irradiance at radii as a photon map with a fixed radius shows it on average: under the Silverman kernel

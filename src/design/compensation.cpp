@@ -11,10 +11,10 @@
 namespace catoptric::design {
 namespace {
 
-constexpr std::size_t nodes = 96;           ///< radii at which light is compared, even in area
-constexpr std::uint64_t photons = 262'144;  ///< in all sets
+constexpr std::size_t compared_radii = 96;              ///< radii at which light is compared, even in area
+constexpr std::uint64_t photons_of_all_sets = 262'144;  ///< in all sets
 constexpr std::uint64_t sets = 4;
-constexpr std::uint64_t stream = std::uint64_t{1} << 36;  ///< nobody else's photons
+constexpr std::uint64_t own_stream = std::uint64_t{1} << 36;  ///< nobody else's photons
 /// Wanted light is sharpened by so many rounds before a mirror is made for it: what is too sharp for a spline
 /// of few points, or for images that are not alike, shows in the real light.
 constexpr int sharpenings[] = {3, 10, 30, 100, 300};
@@ -41,8 +41,8 @@ class Table {
 
 std::vector<double> radii_over(double reach_mm) {
   std::vector<double> radii;
-  for (std::size_t i = 0; i < nodes; ++i)
-    radii.push_back(reach_mm * std::sqrt((static_cast<double>(i) + 0.5) / nodes));
+  for (std::size_t i = 0; i < compared_radii; ++i)
+    radii.push_back(reach_mm * std::sqrt((static_cast<double>(i) + 0.5) / compared_radii));
   return radii;
 }
 
@@ -61,9 +61,9 @@ class Feedback {
       : scene_(scene),
         radii_(radii_over(scene.near_field.half_width_mm())),
         blur_(radii_, image_mm),
-        wanted_(static_cast<Eigen::Index>(nodes)) {
-    Eigen::VectorXd total(static_cast<Eigen::Index>(nodes));
-    for (std::size_t i = 0; i < nodes; ++i) {
+        wanted_(static_cast<Eigen::Index>(compared_radii)) {
+    Eigen::VectorXd total(static_cast<Eigen::Index>(compared_radii));
+    for (std::size_t i = 0; i < compared_radii; ++i) {
       const bool within = radii_[i] <= task.wanted.end_mm;
       wanted_[static_cast<Eigen::Index>(i)] = within ? std::max(0.0, task.wanted.w_per_mm2(radii_[i])) : 0.0;
       total[static_cast<Eigen::Index>(i)] = task.total_w_per_mm2(radii_[i]);
@@ -74,15 +74,15 @@ class Feedback {
   RealLight light_of(const Profile& profile) const {
     const Stage stage(scene_, profile);
     sim::RingsOptions options;
-    options.photons.photons = photons;
+    options.photons.photons = photons_of_all_sets;
     options.photons.sampler = sim::Sampler::sobol;
     options.photons.seed = scene_.seed;
-    options.photons.stream = stream;
+    options.photons.stream = own_stream;
     options.replicates = sets;
     const sim::RingsField field = sim::rings_field(stage.scene, radii_, options);
     const auto copied = [](const std::vector<double>& values) {
       return Eigen::VectorXd(
-          Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(nodes)));
+          Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(compared_radii)));
     };
     return {copied(field.debiased), copied(field.debiased_noise)};
   }

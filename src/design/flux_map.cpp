@@ -77,8 +77,10 @@ double FluxMap::angle_of(double flux_w) const {
 
 std::vector<double> FluxMap::break_angles_rad() const {
   std::vector<double> angles;
-  for (const double flux : break_flux_w_)
+  for (const double flux : break_flux_w_) {
+    if (!(flux > 0)) continue;  // the light begins there: no ray goes nearer to the axis
     if (const double angle = angle_of(flux); angle < last_angle_rad_) angles.push_back(angle);
+  }
   return angles;
 }
 

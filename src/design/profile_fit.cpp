@@ -37,6 +37,11 @@ std::vector<double> knots_with_breaks(int degree, std::size_t points, const std:
   return knots;
 }
 
+bool begins_smooth(const std::vector<CurvePoint>& curve) {
+  constexpr double level = 1e-9;  // as flat as rounding leaves it
+  return std::abs(curve.front().slope_z) <= level * std::abs(curve.front().slope_r);
+}
+
 std::vector<ControlPoint> fit_control_points(const std::vector<CurvePoint>& curve, int degree,
                                              const std::vector<double>& knots) {
   const auto points = static_cast<Eigen::Index>(knots.size()) - degree - 1;
@@ -60,14 +65,15 @@ std::vector<ControlPoint> fit_control_points(const std::vector<CurvePoint>& curv
     r[2 * i + 1] = slope_weight * at.slope_r * last;
     z[2 * i + 1] = slope_weight * at.slope_z * last;
   }
-  // r_0 = 0 drops its column; z_1 = z_0 joins two.
+  // r_0 = 0 drops its column; z_1 = z_0, where the curve crosses the axis smoothly, joins two.
   const Eigen::VectorXd solved_r = basis.rightCols(points - 1).colPivHouseholderQr().solve(r);
+  const bool smooth = begins_smooth(curve);
   Eigen::MatrixXd joined = basis.rightCols(points - 1);
   joined.col(0) += basis.col(0);
-  const Eigen::VectorXd solved_z = joined.colPivHouseholderQr().solve(z);
+  const Eigen::VectorXd solved_z = (smooth ? joined : basis).colPivHouseholderQr().solve(z);
   std::vector<ControlPoint> control{{0, solved_z[0], 1}};
   for (Eigen::Index i = 0; i + 1 < points; ++i)
-    control.push_back({std::max(0.0, solved_r[i]), solved_z[i], 1});
+    control.push_back({std::max(0.0, solved_r[i]), solved_z[smooth ? i : i + 1], 1});
   return control;
 }
 

@@ -13,9 +13,13 @@ namespace catoptric::design {
 ///        served when there are too few points for all
 std::vector<double> knots_with_breaks(int degree, std::size_t points, const std::vector<double>& breaks);
 
+/// Whether a curve given by points and slopes meets the axis at a right angle. One that begins with light
+/// away from the axis (a dark hole) begins as a cone.
+bool begins_smooth(const std::vector<CurvePoint>& curve);
+
 /// The B-spline without weights that comes nearest to a curve given by points and slopes, its parameter the
-/// angle over the last angle. It begins in the first point, on the axis and at a right angle to it, and ends
-/// in the last.
+/// angle over the last angle. It begins in the first point, on the axis and smooth where the curve is, and
+/// ends in the last.
 /// @in    many points, dense enough for the knots
 /// @error least squares of position, and of slope at a tenth of its weight
 std::vector<ControlPoint> fit_control_points(const std::vector<CurvePoint>& curve, int degree,

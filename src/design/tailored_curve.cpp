@@ -43,7 +43,7 @@ class RayEquation {
 
   CurvePoint point(double log_distance, double angle) const {
     const double distance = distance_mm(log_distance), sine = std::sin(angle), cosine = std::cos(angle);
-    const double grows = angle > 0 ? distance * slope(log_distance, angle) : 0.0;
+    const double grows = distance * slope(log_distance, angle);
     return {angle, distance * sine, layout_.source_z_mm + layout_.apex_side * distance * cosine,
             grows * sine + distance * cosine, layout_.apex_side * (grows * cosine - distance * sine)};
   }
@@ -72,8 +72,9 @@ std::variant<std::vector<CurvePoint>, std::string> tailored_curve(const FluxMap&
     slope[0] = equation.slope(at[0], angle);
   };
   State at{0};
-  std::vector<CurvePoint> points{equation.point(at[0], 0)};
+  std::vector<CurvePoint> points;
   try {
+    points.push_back(equation.point(at[0], 0));
     double from = 0;
     // Steps end at every angle asked for, so that breaks among them are never stepped over.
     for (const double to : angles_rad) {

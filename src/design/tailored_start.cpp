@@ -103,6 +103,8 @@ double light_error_rel(const Scene& scene, const TailoringTask& task, const Prof
   for (const double radius_mm : radii) peak = std::max(peak, task.wanted.w_per_mm2(radius_mm));
   sim::TubesOptions options;
   options.pointwise_tolerance_w_per_mm2 = 1e-4 * peak;
+  options.most_rays = 4096;  // twenty times what a mirror without folds takes; of others a rough idea will do
+  options.most_meetings = 65536;
   const sim::PointSource source(scene.source.position_mm, scene.source.power_w, far_exponent(scene.source),
                                 scene.source.axis);
   const sim::FieldPlane plane{task.layout.field_z_mm, scene.near_field.normal().z() > 0};
@@ -127,15 +129,35 @@ class MirrorFactory {
   std::variant<Tailored, std::string> make(const FluxMap& map) const {
     const auto vertex = apex_distance_mm(map);
     if (const auto* why = std::get_if<std::string>(&vertex)) return *why;
+    double apex_mm = std::get<double>(vertex), overshoot = 0;
+    constexpr int most_tries = 4;  // a spline goes its own way where its points do not suffice for the curve
+    for (int i = 0; i < most_tries; ++i) {
+      auto made = make_at(map, apex_mm);
+      const auto* tailored = std::get_if<Tailored>(&made);
+      if (!tailored || scene_.tailored.vertex_mm) return made;
+      overshoot = share_of_package(tailored->profile);
+      if (overshoot <= 1) return made;
+      apex_mm *= room / overshoot;
+    }
+    return fmt::format("a spline of {} points leaves the package by {:.2g} %", scene_.tailored.points,
+                       100 * (overshoot - 1));
+  }
+
+ private:
+  /// What is left of the package for the curve: the spline goes beside it by less than that.
+  static constexpr double room = 1 - 1e-4;
+
+  std::variant<Tailored, std::string> make_at(const FluxMap& map, double apex_mm) const {
     const int degree = scene_.tailored.degree;
     const std::size_t points = scene_.tailored.points;
-    const auto curve = curve_from(map, std::get<double>(vertex), 20 * points);
+    const auto curve = curve_from(map, apex_mm, 20 * points);
     if (const auto* why = std::get_if<std::string>(&curve)) return *why;
     std::vector<double> breaks = map.break_angles_rad();
     for (double& each : breaks) each /= map.last_angle_rad();
     const std::vector<double> knots = knots_with_breaks(degree, points, breaks);
     auto control = fit_control_points(std::get<0>(curve), degree, knots);
-    control[0].z_mm = control[1].z_mm = std::get<0>(curve).front().z_mm;
+    control[0].z_mm = std::get<0>(curve).front().z_mm;
+    if (begins_smooth(std::get<0>(curve))) control[1].z_mm = control[0].z_mm;
     if (const auto defect = Profile::find_defect(degree, knots, control)) return defect->what;
     FreeProfileOptions options;
     options.hold_vertex = true;
@@ -147,7 +169,20 @@ class MirrorFactory {
     return tailor(map, task_.layout, kind_, family, search);
   }
 
- private:
+  double most_radius_mm() const {
+    const Constraints& package = scene_.constraints;
+    return std::min(package.rim_radius_max_mm.value_or(HUGE_VAL),
+                    package.envelope_radius_mm.value_or(HUGE_VAL));
+  }
+  double most_height_mm() const { return scene_.constraints.height_max_mm.value_or(HUGE_VAL); }
+
+  /// How much of the package a mirror takes in the direction in which it takes most: beyond 1 it does not
+  /// fit.
+  double share_of_package(const Profile& profile) const {
+    return std::max(profile.r_max_mm() / most_radius_mm(),
+                    (profile.z_max_mm() - profile.z_min_mm()) / most_height_mm());
+  }
+
   std::variant<std::vector<CurvePoint>, std::string> curve_from(const FluxMap& map, double apex_mm,
                                                                 std::size_t points) const {
     std::vector<double> angles;
@@ -160,10 +195,7 @@ class MirrorFactory {
   /// that is no point shows in it.
   std::variant<double, std::string> apex_distance_mm(const FluxMap& map) const {
     if (scene_.tailored.vertex_mm) return *scene_.tailored.vertex_mm;
-    const Constraints& package = scene_.constraints;
-    const double radius_mm =
-        std::min(package.rim_radius_max_mm.value_or(HUGE_VAL), package.envelope_radius_mm.value_or(HUGE_VAL));
-    const double height_mm = package.height_max_mm.value_or(HUGE_VAL);
+    const double radius_mm = most_radius_mm(), height_mm = most_height_mm();
     const auto fits = [&](double apex_mm) {
       const auto curve = curve_from(map, apex_mm, 40);
       if (!std::holds_alternative<std::vector<CurvePoint>>(curve)) return false;
@@ -173,8 +205,6 @@ class MirrorFactory {
         z_least = std::min(z_least, point.z_mm);
         z_most = std::max(z_most, point.z_mm);
       }
-      // The spline goes beside the curve by less than this share.
-      constexpr double room = 1 - 1e-4;
       return r_most <= room * radius_mm && z_most - z_least <= room * height_mm;
     };
     // The package's own size is more than any mirror in it needs; below a ten thousandth there is none.
@@ -228,26 +258,32 @@ void serve_extended_source(const Scene& scene, TailoringTask& task, Made& made) 
 }
 
 /// Without the time it took: results repeat bit for bit.
-std::string miss_in_words(const Tailored& tailored, RayMap kind) {
-  return fmt::format(
+std::string miss_in_words(const TailoredStart& start) {
+  std::string words = fmt::format(
       "tailored by the {} ray map: rays miss their places by {:.2g} rad, {} evaluations from {} {}",
-      name(kind), tailored.miss_rad, tailored.evaluations, tailored.starts,
-      tailored.starts == 1 ? "start" : "starts");
+      name(start.map), start.miss_rad, start.evaluations, start.starts,
+      start.starts == 1 ? "start" : "starts");
+  if (start.light_error_rel)
+    words += fmt::format("; a point source's light from it is off by {:.2g} %, by ray tubes without a kernel",
+                         100 * *start.light_error_rel);
+  return words;
 }
 
-TailoredStart result(TailoringTask task, Tailored tailored, RayMap kind, Clock::time_point begin) {
+TailoredStart result(TailoringTask task, Tailored tailored, RayMap kind, Clock::time_point begin,
+                     std::optional<double> light_error_rel = {}) {
   TailoredStart start{std::move(tailored.profile),
                       kind,
                       tailored.miss_rad,
                       task.map.last_angle_rad(),
                       task.level,
                       task.unreachable_rel,
+                      light_error_rel,
                       tailored.evaluations,
                       tailored.starts,
                       0,
                       std::move(task.notes)};
   start.seconds = seconds_since(begin);
-  start.notes.push_back(miss_in_words(tailored, kind));
+  start.notes.push_back(miss_in_words(start));
   return start;
 }
 
@@ -306,7 +342,8 @@ TailoredStart tailored_from_nothing(const Scene& scene) {
     throw scene.settings.error("start", "no tailored mirror reaches this target", why_not,
                                "another tailored.vertex, a larger package, or a smaller field");
   if (scene.source.radius_mm > 0) serve_extended_source(scene, task, *best);
-  return result(std::move(task), std::move(best->tailored), best->kind, begin);
+  return result(std::move(task), std::move(best->tailored), best->kind, begin,
+                scene.source.radius_mm > 0 ? std::nullopt : std::optional(best->light_error_rel));
 }
 
 }  // namespace catoptric::design

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct TailoredStart {
   double rim_angle_rad;        ///< at the source, from the apex: where all wanted light is placed
   double level;                ///< factor on the target's irradiance; 1 unless the target's scale is free
   double unreachable_rel = 0;  ///< relative root mean square error that direct light alone leaves
+  /// Of a mirror from nothing for a point source: how far its light is off, relative root mean square away
+  /// from jumps, by ray tubes. Rays may go where they should and the mirror still hide some of them.
+  std::optional<double> light_error_rel;
   long evaluations;
   int starts;
   double seconds;

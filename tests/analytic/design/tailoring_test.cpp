@@ -142,3 +142,23 @@ TEST_CASE("tailoring never ends worse than it began, whatever it cannot reach") 
   const Tailored again = tailor(map, paper_layout, RayMap::diverging, family);
   CHECK(again.values == tailored.values);
 }
+
+TEST_CASE("light that begins away from the axis makes a mirror with a cone's tip") {
+  // Between two radii, dark within: the ray along the axis lands on the inner one.
+  constexpr double inner = 30, outer = 60, power = 1;
+  const double even = 0.25 * power / (pi * (outer * outer - inner * inner));
+  const FluxMap map(polar_flux(power, 0, true), 1,
+                    {[=](double radius) { return radius < inner ? 0.0 : even; }, {inner}, outer});
+  CHECK(map.break_angles_rad().empty());
+  const AxialLayout layout{100, 0, 1};
+  const auto curve =
+      std::get<0>(tailored_curve(map, layout, RayMap::diverging, 20, angles(map.last_angle_rad(), 40)));
+  CHECK(!begins_smooth(curve));
+  // The normal at the tip halves the angle between the axis and the way to the inner radius.
+  const double to_landing = std::atan2(inner, 120);
+  CHECK(curve.front().slope_z / curve.front().slope_r == Approx(std::tan(0.5 * to_landing)));
+  const std::vector<double> knots = knots_with_breaks(3, 10, map.break_angles_rad());
+  const auto control = fit_control_points(curve, 3, knots);
+  CHECK((control[1].z_mm - control[0].z_mm) / control[1].r_mm ==
+        Approx(std::tan(0.5 * to_landing)).epsilon(1e-3));
+}

@@ -8,6 +8,7 @@
 #include "support/ladder_scenes.h"
 #include "support/result_numbers.h"
 #include "support/scaled_scene.h"
+#include "support/temporary_folder.h"
 
 /// The scene as a whole made larger or smaller: lengths times s, so irradiances over s squared. By powers of
 /// two nothing may change, not a bit, whatever is asked and by however many threads; by others, and in other
@@ -51,6 +52,18 @@ Case simulating(std::string name, std::string text, Keys keys, double rounding =
     return numbers;
   };
   return {std::move(name), run, rounding};
+}
+
+/// The same aimed at a table, whose lengths and irradiances are written like the scene's.
+Case aiming(const std::string& scene, const std::string& kind, std::string table) {
+  const std::string text = scene + "[target]\nkind = \"" + kind + "\"\n";
+  const auto run = [kind, text, table = std::move(table)](const Writing& writing) {
+    const test::TemporaryFolder folder;
+    test::write_whole(folder / "table.csv",
+                      test::scaled_text(table, writing.scale, millimetres_per(writing.unit)));
+    return simulating({}, text, {{"target.file", (folder / "table.csv").string()}}).run(writing);
+  };
+  return {kind + " table", run};
 }
 
 /// @in whole: every step of the search, not only its end
@@ -134,6 +147,9 @@ std::vector<Case> simulations() {
   list.push_back(simulating("paper, occt", test::paper_scene, by_occt));
   // A photon of it grazes the mirror, where the reference's hits are good to the root of a rounding.
   list.push_back(simulating("aside, occt", test::aside_scene, by_occt, 1e-7));
+  list.push_back(aiming(test::aside_scene, "csv",
+                        "x,y,z,irradiance\n@10,0,@-40,%50\n@30,0,@-40,%70\n@-20,0,@-40,%20\n"));
+  list.push_back(aiming(test::floor_scene, "radial", "radius,irradiance\n0,%50\n@20,%70\n@60,%10\n"));
   for (const auto& [name, text] : {std::pair{"paper", test::paper_scene},
                                    {"aside", test::aside_scene},
                                    {"floor", test::floor_scene},

@@ -167,3 +167,24 @@ TEST_CASE("the error of more photons is foreseen") {
     CHECK(expected < 0.8 * best_choice(today).error95);  // wrong twin: that photons change nothing
   }
 }
+
+TEST_CASE("kernels without a photon may hide the light of three, all in one place") {
+  BandwidthLadder dark = make({.bias = 0, .noise = 0, .sets = 4, .levels = 3});
+  const LadderPhotons photons{0.5, 100};
+  CHECK(best_choice(summary_of(dark, true, {}, photons)).error95 == 0);  // no sample is dark
+  for (LadderLevel& level : dark)
+    for (SetFields* fields : {&level.second, &level.fourth})
+      for (auto& field : *fields) std::fill(field.begin(), field.end(), 0.0);
+  const LadderSummary summary = summary_of(dark, true, {}, photons);
+  // The widest kernel, of radius 1, hides least: brightest 1.5 W on its area, on its share of the field.
+  const double kernel = 3.14159265358979, expected = 1.5 / kernel * std::sqrt(kernel / 100);
+  const LadderChoice choice = best_choice(summary);
+  CHECK(choice.level == 0);
+  CHECK(choice.error95 == Approx(1.1 * expected));
+  CHECK(best_choice(expected_with(summary, 4)).error95 == Approx(1.1 * expected / 4));
+  // One dark sample of 400 hides no more than its own share.
+  for (LadderLevel& level : dark)
+    for (SetFields* fields : {&level.second, &level.fourth})
+      for (auto& field : *fields) std::fill(field.begin() + 1, field.end(), 1.0);
+  CHECK(best_choice(summary_of(dark, true, {}, photons)).error95 == Approx(1.1 * 1.5 / kernel / 20));
+}
