@@ -14,13 +14,16 @@
 #endif
 
 #include "base/errors.h"
+#include "base/float_traps.h"
 
 namespace catoptric::cad::detail {
 namespace {
 
-/// While it lives, this thread's tiny floats count as zero, which spares Embree's kernels slow paths; then
-/// the state is as it was.
+/// While it lives, this thread's tiny floats count as zero, which spares Embree's kernels slow paths, and
+/// what their lanes divide by zero stops nothing; then the state is as it was.
 class FlushedDenormals {
+  UntrappedFloats untrapped_;  // first, so that it ends last: the other sets the whole state
+
  public:
 #ifdef __SSE__
   FlushedDenormals() : before_(_mm_getcsr()) {
