@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/contract.h"
 #include "base/tolerance.h"
@@ -27,11 +28,12 @@ PhotonGrid::Axis PhotonGrid::axis_over(double low, double high, double cell_mm) 
   Axis axis;
   axis.first = low;
   const double width = high - low;
-  if (!(width > 0)) return axis;
+  if (!(width > 0 && cell_mm > 0)) return axis;
   axis.cells = static_cast<std::size_t>(std::max(1.0, std::ceil(width / cell_mm)));
   axis.cell_mm = width / static_cast<double>(axis.cells);
+  constexpr double least = std::numeric_limits<double>::min();  // below, an inverse may overflow
+  if (!(axis.cell_mm > least)) return {low, 1, 0, 1};
   axis.per_mm = 1 / axis.cell_mm;
-  if (!std::isfinite(axis.per_mm)) return {low, 0, 0, 1};
   return axis;
 }
 

@@ -49,7 +49,7 @@ class PhotonGrid {
     double nearest_mm, farthest_mm;  ///< distances from a height to the row
   };
   struct Axis {
-    double first = 0, per_mm = 0, cell_mm = 0;
+    double first = 0, per_mm = 1, cell_mm = 0;  ///< one cell: any per_mm > 0 serves (0 * infinity is none)
     std::size_t cells = 1;
     std::size_t cell_of(double at) const;
   };
