@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/float_traps.h"
 #include "base/profile.h"
 #include "base/random_stream.h"
 #include "base/tolerance.h"
@@ -72,6 +73,7 @@ void start(std::size_t count, double source_z, const double* __restrict cosine, 
 CATOPTRIC_VECTOR_CLONES
 void reflect_all(std::size_t count, const PlaneNumbers& numbers, const double* __restrict azimuth_cosine,
                  const double* __restrict azimuth_sine, Rows& rows) {
+  const UntrappedFloats untrapped;  // what missed the mirror has no tangent; nothing of it is taken
   const PlaneNumbers plane = numbers;
   for (std::size_t i = 0; i < count; ++i) {
     // What is along the tangent stays, the rest turns round; unit length again, as in space.
@@ -91,6 +93,7 @@ void reflect_all(std::size_t count, const PlaneNumbers& numbers, const double* _
 
 CATOPTRIC_VECTOR_CLONES
 void mark_leaving(std::size_t count, const Opening& opening, Rows& rows) {
+  const UntrappedFloats untrapped;  // as above
   const Opening mouth = opening;
   for (std::size_t i = 0; i < count; ++i)
     rows.leaves[i] = mouth.lets_out(rows.hit_x[i], rows.hit_z[i], rows.after_dx[i], rows.after_dz[i]) ? 1 : 0;
