@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/float_traps.h"
 #include "cad/detail/occt_curve.h"
 #include "cad/detail/occt_guard.h"
 
@@ -26,15 +27,16 @@ Profile restored(const Profile& given, const Handle(Geom_BSplineCurve) & curve) 
   return Profile(refined.degree(), refined.knots(), std::move(points));
 }
 
-void require_inside(const Profile& profile, std::span<const double> sorted) {
-  for (const double knot : sorted)
+void require_inside(const Profile& profile, std::span<const double> knots) {
+  const UntrappedFloats untrapped;  // NaN is one of the things refused
+  for (const double knot : knots)
     if (!(knot > profile.first_parameter() && knot < profile.last_parameter()))
       throw InputError({fmt::format("new knot {} lies outside the curve", knot), "",
                         fmt::format("new knots lie between {} and {}", profile.first_parameter(),
                                     profile.last_parameter()),
                         ""});
-  for (const double knot : sorted) {
-    const auto times = std::count(sorted.begin(), sorted.end(), knot) +
+  for (const double knot : knots) {
+    const auto times = std::count(knots.begin(), knots.end(), knot) +
                        std::count(profile.knots().begin(), profile.knots().end(), knot);
     if (times > profile.degree())
       throw InputError({fmt::format("knot {} would be repeated {} times", knot, times), "",
@@ -58,9 +60,9 @@ Profile elevated(const Profile& profile, int degree) {
 }
 
 Profile with_knots(const Profile& profile, std::span<const double> new_knots) {
+  require_inside(profile, new_knots);  // first: with NaN there is no order
   std::vector<double> sorted(new_knots.begin(), new_knots.end());
   std::sort(sorted.begin(), sorted.end());
-  require_inside(profile, sorted);
   if (sorted.empty()) return profile;
   std::vector<double> values = sorted;
   values.erase(std::unique(values.begin(), values.end()), values.end());
