@@ -112,6 +112,7 @@ class FastProbe final : public MeridianProbe {
     if (!near.passes(table_)) return;
     const AxisLine<double> line(ray, near, table_);
     if (line.h == 0 && line.along == 0 && line.across == 0 && table_.axis_points_known) {  // the axis itself
+      if (line.dz == 0) return;  // or no direction at all
       for (const AxisPoint& at : table_.axis_points)
         candidates_.push_back(make_candidate(near, (at.z - line.oz) / line.dz, at.s, 0, at.z, at.span));
       return;
