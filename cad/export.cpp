@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "base/atomic_file.h"
+#include "base/float_traps.h"
 #include "cad/detail/comparison.h"
 #include "cad/detail/exchange_file.h"
 #include "cad/detail/shape.h"
@@ -50,6 +51,7 @@ double verify(FileFormat format, const ExportOptions& options, const PendingFile
 }
 
 void check_options(const ExportOptions& options) {
+  const UntrappedFloats untrapped;  // NaN is one of the things refused
   if (!(options.chord_tolerance_rel >= least_chord_rel && options.chord_tolerance_rel <= greatest_chord_rel))
     throw InputError(
         {fmt::format("chord tolerance {} is out of range", options.chord_tolerance_rel), "",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/float_traps.h"
 #include "base/ray.h"
 #include "cad/meridian_spans.h"
 
@@ -58,6 +59,7 @@ struct NearRays {
 /// One such ray.
 struct NearRay : NearRays<double> {
   NearRay(const Ray& ray, const SpanTable& table) {
+    const UntrappedFloats untrapped;  // a ray that is no number passes nothing
     const Vector3 &o = ray.origin_mm, &d = ray.direction;
     set(o.x(), o.y(), o.z(), d.x(), d.y(), d.z(), table);
   }

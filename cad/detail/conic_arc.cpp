@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/errors.h"
+#include "base/float_traps.h"
 #include "base/units.h"
 
 namespace catoptric::cad::detail {
@@ -93,6 +94,7 @@ ConicArc open_conic(const Form& m, bool is_parabola, const Vector2& start, const
 }  // namespace
 
 ConicArc conic_arc(const std::array<double, 6>& coefficients, const Vector2& start, const Vector2& end) {
+  const UntrappedFloats untrapped;  // a file's numbers may overflow; what is then not finite is refused
   const Form m = form_of(coefficients);
   if (!m.allFinite() || !start.allFinite() || !end.allFinite()) refuse("a number of it is not finite");
   const double discriminant = -4 * m.topLeftCorner<2, 2>().determinant();

@@ -122,6 +122,7 @@ TriangleScene::TriangleScene(TriangleMesh mesh)
                              sizeof(mesh_.triangles[0]), mesh_.triangles.size());
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene, geometry);
+  const UntrappedFloats untrapped;  // the arena's tasks have what holds where it is made
   // On one thread: the order of triangles in a leaf must not depend on how many there are.
   tbb::task_arena(1).execute([scene] {
     const FlushedDenormals flushed;
