@@ -108,7 +108,9 @@ ParameterSensitivity measure(FieldChanger& changer, const Scene& scene, const Pr
   if (auto wide = derivative(changer, deviation, rung, 2 * result.step)) {
     for (Index r = 0; r < wide->w_per_mm2.size(); ++r)
       for (Index i = 0; i < wide->w_per_mm2[r].size(); ++i) wide->w_per_mm2[r][i] -= slope->w_per_mm2[r][i];
-    result.nonlinearity_rel = changer.measure(*wide).value_rel / result.change_per_unit.value_rel;
+    // What changes nothing by any step is linear.
+    const double bend = changer.measure(*wide).value_rel, change = result.change_per_unit.value_rel;
+    if (bend > 0) result.nonlinearity_rel = change > 0 ? bend / change : HUGE_VAL;
   }
   return result;
 }
