@@ -46,8 +46,9 @@ Node node_by(const Scene& scene, const MeridianPoint& at, const Vector3& out) {
   Node node;
   node.way = (point - scene.source.position_mm()).normalized();
   node.leaving = {point, reflect(node.way, normal)};
-  const double distance =
-      (field.center_mm() - point).dot(field.normal()) / node.leaving.direction.dot(field.normal());
+  const double climb = node.leaving.direction.dot(field.normal());
+  if (climb == 0) return node;
+  const double distance = (field.center_mm() - point).dot(field.normal()) / climb;
   node.lands = distance > 0 && std::isfinite(distance);
   if (node.lands) node.plane_mm = field.to_plane(point + distance * node.leaving.direction);
   return node;

@@ -66,6 +66,7 @@ class FacetRefiner {
   /// One step, shortened until it comes nearer.
   bool step(const meridian::NearRay& near, Iterate& now) const {
     const double determinant = near.dz * now.point.dr - now.outward * now.point.dz;
+    if (determinant == 0) return false;
     double along_t = (now.off_r * now.point.dz - now.off_z * now.point.dr) / determinant;
     double along_s = (near.dz * now.off_r - now.outward * now.off_z) / determinant;
     if (!std::isfinite(along_t) || !std::isfinite(along_s)) return false;

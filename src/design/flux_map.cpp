@@ -45,7 +45,10 @@ FluxMap::FluxMap(PolarFlux source, double reflectance, const WantedLight& wanted
     const double first = stretches[stretch], length = stretches[stretch + 1] - first;
     const auto count =
         std::max<std::size_t>(8, static_cast<std::size_t>(std::ceil(panels * length / wanted.end_mm)));
-    const auto rise_at = [&](double radius_mm) { return 1 / (pi * light(radius_mm)); };
+    const auto rise_at = [&](double radius_mm) {
+      const double there = light(radius_mm);
+      return there > 0 ? 1 / (pi * there) : HUGE_VAL;
+    };
     if (stretch > 0) {
       placed_.back().rise_after = rise_at(first + within * length);
       break_flux_w_.push_back(flux);
