@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/float_traps.h"
 #include "base/tolerance.h"
 #include "cad/detail/facet_refine.h"
 #include "cad/detail/generatrix_facets.h"
@@ -93,6 +94,7 @@ class MeshProbe final : public Probe {
   /// The piece of a ray on which it may meet facets whose hits count, in mesh units.
   struct Piece {
     Piece(const Ray& ray, double beyond_mm, const Model& model) : near(ray, model.table) {
+      const UntrappedFloats untrapped;  // a ray that is no number misses
       const double scale = model.facets.scale;
       // A facet may lie before the hit that it stands for: farther the flatter the ray meets it.
       const double slack = 16 * model.chord;

@@ -10,6 +10,7 @@
 #include <gp_Ax1.hxx>
 #include <utility>
 
+#include "base/float_traps.h"
 #include "base/tolerance.h"
 #include "cad/detail/occt_curve.h"
 #include "cad/detail/occt_guard.h"
@@ -76,6 +77,7 @@ class OcctProbe final : public Probe {
   }
 
   std::vector<Hit> all_hits(const Ray& ray, double beyond_mm) override {
+    const UntrappedFloats untrapped;  // for rays that are no numbers
     const ModelRay line(ray, model_);
     const bool passes = line.origin.squaredNorm() <= model_.reach * model_.reach;
     if (!passes || !(line.direction.squaredNorm() > 0)) return {};  // also what is no number

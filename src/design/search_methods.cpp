@@ -28,7 +28,7 @@ class Telling {
 
   double evaluated(double value) {
     ++evaluations_;
-    if (value < infeasible_floor && !(value >= best_)) best_ = value;
+    if (value < infeasible_floor && (std::isnan(best_) || value < best_)) best_ = value;
     const double spent =
         static_cast<double>(evaluations_) / static_cast<double>(scene_.search.most_evaluations);
     control_.tell({"search", std::max(share_, spent), best_, evaluations_});
