@@ -21,6 +21,7 @@ using meridian::NearRay;
 
 /// The chord error in mm, checked.
 double chord_mm(const Profile& profile, const MeshOptions& options) {
+  const UntrappedFloats untrapped;                 // NaN is one of the things refused
   constexpr double least = 1e-6, greatest = 0.05;  // a float's resolution; a polygon of 8
   const double diagonal = profile.diagonal_mm();
   const double relative = options.chord_error_mm ? *options.chord_error_mm / diagonal : options.chord_error;

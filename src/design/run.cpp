@@ -198,7 +198,7 @@ Landscape run_landscape(const Scene& given, const RunControl& control) {
       const double value = value_at(scene, rung, target, family, x);
       const bool allowed = value < infeasible_floor;
       result.objective.push_back(allowed ? value : std::numeric_limits<double>::quiet_NaN());
-      if (allowed && !(value >= best)) best = value;
+      if (allowed && (std::isnan(best) || value < best)) best = value;
       control.tell({"landscape", static_cast<double>(result.objective.size()) / points, best,
                     static_cast<long>(result.objective.size())});
     }
