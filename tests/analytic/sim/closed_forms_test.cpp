@@ -96,7 +96,7 @@ struct ConeField {
 
 }  // namespace
 
-TEST_CASE("paraboloid: 1 + 1 W/m2 at the centre, eq. 12 and 13 across the field") {
+TEST_CASE("paraboloid: 1 + 1 W/m2 at the centre, eq. 12 and 13 across the field", "[long]") {
   const auto mirror = test::paraboloid();
   const PointSource source({0, 0, 50}, power);
   check_field(mirror, source, 8, rings({0, 16, 32, 48, 64, 80}, 8), 1'000'000,
@@ -145,14 +145,15 @@ TEST_CASE("paraboloid: every ray arrives at the radius of its flux tube") {
   }
 }
 
-TEST_CASE("hemisphere of start C: every ray returns through the source, reflected field = direct field") {
+TEST_CASE("hemisphere of start C: every ray returns through the source, reflected field = direct field",
+          "[long]") {
   const auto mirror = test::half_ellipsoid(50, 50, 50);
   const PointSource source({0, 0, 50}, power);
   check_field(mirror, source, 8, rings({0, 16, 32, 48}, 8), 2'000'000,
               [](const Vector2& at) { return point_field(at, 50); });
 }
 
-TEST_CASE("flat mirror: the field of the image source, from any place of the source") {
+TEST_CASE("flat mirror: the field of the image source, from any place of the source", "[long]") {
   const test::FlatMirror mirror(100, 300);
   const PointSource source({3, -4, 60}, power);
   check_field(mirror, source, 10, rings({0, 20, 40, 60}, 10), 2'000'000,

@@ -64,7 +64,7 @@ TEST_CASE("rings: ten thousand photons give the paper's disc, its sharp rim incl
   }
 }
 
-TEST_CASE("rings: bias of second and of fourth order on the axis, inside and at the rim") {
+TEST_CASE("rings: bias of second and of fourth order on the axis, inside and at the rim", "[long]") {
   const auto mirror = cad::make_meridian_reflector(paper_profile);
   const std::vector<double> radii{0, 60, 99.999'999};
   auto given = options(1'000'000);
@@ -224,7 +224,7 @@ TEST_CASE("rings: the near field may be any patch in the plane, the light is the
   CHECK(aside.energy.received_w < 0.5 * disc.energy.received_w);  // the rectangle's own light
 }
 
-TEST_CASE("rings: counted photons read as sorted ones within what a bin may do") {
+TEST_CASE("rings: counted photons read as sorted ones within what a bin may do", "[long]") {
   const auto mirror = cad::make_meridian_reflector(paper_profile);
   const auto radii = radii_of(field, 200);
   auto given = options(1'000'000);

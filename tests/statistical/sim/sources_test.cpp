@@ -258,7 +258,7 @@ std::vector<std::vector<double>> by_rings(const Scene& scene, const std::vector<
 
 }  // namespace
 
-TEST_CASE("tubes, rings and photons see the same light of a point with an exponent") {
+TEST_CASE("tubes, rings and photons see the same light of a point with an exponent", "[long]") {
   const auto field = NearField::disc({0, 0, 0}, {0, 0, 1}, 100);
   const auto samples = along_radius(12);
   for (const double w1 : {1.0, 2.5}) {
