@@ -10,7 +10,7 @@ cd "$(dirname "$0")/../.."
 runs=${1:-1000000}
 shift || true
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(scene override study csv conic layout packet iges step)
+[ ${#targets[@]} -gt 0 ] || targets=(scene override study csv conic layout packet rayfile iges step)
 build=${BUILD:-build-fuzz}
 most_seconds=${SECONDS_EACH:-0}
 
@@ -29,6 +29,23 @@ work=$build/fuzz
 mkdir -p "$work"
 "$bin/fuzz_dictionary" >"$work/dictionary"
 
+# A TM-25 file without its descriptions and a Zemax file, of two rays each; the first byte says which (targets/rayfile.h).
+ray_files() {
+  local rays='\0\0\200\77\0\0\0\0\0\0\0\100\0\0\0\0\0\0\0\0\0\0\200\77\0\0\200\77' one='\1\0\0\0'
+  {
+    printf '\1TM25\335\7\0\0\0\0\0\0\0\0\240\177\0\0\0\100\2\0\0\0\0\0\0\0'
+    head -c 228 /dev/zero
+    printf "$one$one$one"
+    head -c 20 /dev/zero
+    printf "$rays$rays"
+  } >"$1/tm25"
+  {
+    printf '\0\362\3\0\0\2\0\0\0'
+    head -c 200 /dev/zero
+    printf "$rays$rays"
+  } >"$1/zemax"
+}
+
 # Valid inputs to begin with, and all that ever broke the target.
 seeds() {
   local folder=$work/corpus/$1
@@ -46,6 +63,7 @@ seeds() {
       done
       ;;
     layout) cp data/profiles/*.igs "$folder" ;;
+    rayfile) ray_files "$folder" ;;
   esac
 }
 

@@ -1,0 +1,9 @@
+#include "fuzz/targets/rayfile.h"
+
+#include <cstddef>
+#include <cstdint>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  catoptric::fuzz::try_rayfile({reinterpret_cast<const char*>(data), size});
+  return 0;
+}
