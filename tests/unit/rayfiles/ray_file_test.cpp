@@ -160,3 +160,14 @@ TEST_CASE("the place of a ray is file, number, byte and name") {
                                               std::to_string(36288 + 56 + 24) + ", phi");
   CHECK_THAT(file->place(0, RayField::direction), Catch::EndsWith("byte 36300, kx to kz"));
 }
+
+TEST_CASE("a file of a thousand million rays opens without being read") {
+  const TemporaryFolder folder;
+  constexpr std::uint64_t count = 1'000'000'000;
+  write_whole(folder / "rays", tm25_file(count, {}));
+  std::filesystem::resize_file(folder / "rays", 36288 + 28 * count);  // a hole, which takes no room
+  const auto file = RayFile::open(folder / "rays");
+  CHECK(file->count() == count);
+  CHECK(file->ray(count - 1).flux == 0);
+  CHECK_THAT(file->place(count - 1, RayField::flux), Catch::EndsWith("byte 28000036284, phi"));
+}
