@@ -78,3 +78,13 @@ TEST_CASE("fluxes that differ by all that floats can are picked from without a g
   CHECK(last.ray >= 100);
   CHECK(last.rest < 1);
 }
+
+TEST_CASE("a number beyond the fluxes of its block, for roundings, picks the last ray of it that has any") {
+  // Added up one by one the small fluxes are lost, but not in the table's compensated sum: 1 + 62 / 2^54.
+  std::vector<double> fluxes(64, 0x1p-54);
+  fluxes.front() = 1;
+  fluxes.back() = 0;
+  const PickedRay last = RayPicker(ListedRays::of_fluxes(fluxes)).pick(1 - 0x1p-53);
+  CHECK(last.ray == 62);
+  CHECK(last.rest < 1);
+}
