@@ -23,11 +23,10 @@ using RayFileHeader = std::variant<Tm25Header, ZemaxHeader>;
 /// A file that another program cuts short while it is open may end the process (detail/mapped_file.h).
 class RayFile final : public RaySet {
  public:
-  /// Opens a file in the format that its first bytes say, whatever its name. Rays are not looked at:
-  /// check_rays().
+  /// Opens a file in the format that its first bytes say. Rays are not looked at: check_rays().
   /// @in    wanted: which flux to read where a TM-25 file has both; radiant flux when left out
-  /// @fails InputError with file, byte, field and rule: no such file, another format, a header that is not
-  /// sound, fewer
+  /// @fails InputError with file, byte, field and rule: no such file, another format, an unsound header,
+  /// fewer
   ///        rays than it says, or a wanted flux that is not there. Bytes behind the last ray are a note
   /// @cost  O(header): the size of the file does not matter
   static std::shared_ptr<const RayFile> open(const std::filesystem::path& file,

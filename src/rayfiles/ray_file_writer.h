@@ -17,9 +17,8 @@ namespace catoptric::rayfiles {
 /// same header and rays give the same bytes.
 class RayFileWriter {
  public:
-  /// @in    header: of the format to write. Its number of rays is filled in; so are the total fluxes of TM-25
-  /// that are
-  ///        left out though rays have them, and source_flux and ray_set_flux of Zemax where they are 0
+  /// @in    header: of the format to write. Its number of rays is filled in; so are total fluxes of
+  ///        TM-25 that are left out though rays have them, and Zemax's source_flux and ray_set_flux if 0
   /// @fails IoError when the file cannot be created; InputError as tm25_header_bytes()
   RayFileWriter(std::filesystem::path path, RayFileHeader header);
 

@@ -80,16 +80,14 @@ bool looks_like_tm25(std::span<const std::byte> bytes);
 
 /// Reads a header. Spectra and texts are kept, not judged.
 /// @in    bytes of the whole file; name for messages
-/// @fails InputError with file, byte, field and rule: another version or byte order, an end within the
-/// header, flags
-///        that are no flags, fluxes that are negative or infinite, neither flux, or a header beyond 64 MiB
+/// @fails InputError with file, byte, field and rule: another version or byte order, an end within it,
+///        flags that are none, fluxes that are negative or infinite, neither flux, or more than 64 MiB
 /// @cost  O(header)
 Tm25Reading read_tm25_header(std::span<const std::byte> bytes, const std::string& name);
 
 /// The header's bytes. Texts that are too long are cut.
-/// @fails InputError for a date of more than 28 bytes, an empty table of a spectrum, or more columns, tables
-/// or text
-///        than the header can count
+/// @fails InputError for a date of more than 28 bytes, a spectrum without numbers, or more columns,
+///        tables or text than the header can count
 std::string tm25_header_bytes(const Tm25Header& header);
 
 }  // namespace catoptric::rayfiles

@@ -61,9 +61,8 @@ struct ZemaxReading {
 bool looks_like_zemax(std::span<const std::byte> bytes);
 
 /// @in    bytes of the whole file; name for messages
-/// @fails InputError with file, byte, field and rule: another byte order, an end within the header, no rays
-/// or too many,
-///        an unknown unit, ray format or flux type, or lumens in the spectral format
+/// @fails InputError with file, byte, field and rule: another byte order, an end within the header,
+///        no rays or too many, an unknown unit, ray format or flux type, or lumens in the spectral format
 ZemaxReading read_zemax_header(std::span<const std::byte> bytes, const std::string& name);
 
 /// The header's 208 bytes. A description that is too long is cut.
