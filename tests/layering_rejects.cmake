@@ -5,6 +5,8 @@ set(cases
     "cad/a.cpp|#include \"sim/tracer.h\""
     "src/base/a.h|#include \"optim/problem.h\""
     "src/optim/a.cpp|#include \"design/scene.h\""
+    "src/photometry/a.cpp|#include \"sim/tracer.h\""
+    "sim/a.cpp|#include \"photometry/lm63.h\""
     "src/rayfiles/a.cpp|#include \"sim/emitter.h\""
     "sim/a.cpp|#include \"rayfiles/ray_file.h\""
     "src/design/a.cpp|#include \"report/csv.h\""
