@@ -10,7 +10,7 @@ cd "$(dirname "$0")/../.."
 runs=${1:-1000000}
 shift || true
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(scene override study csv conic layout packet rayfile iges step)
+[ ${#targets[@]} -gt 0 ] || targets=(scene override study csv conic layout packet rayfile lm63 eulumdat iges step)
 build=${BUILD:-build-fuzz}
 most_seconds=${SECONDS_EACH:-0}
 
@@ -60,6 +60,22 @@ seeds() {
         printf '%sx,y,z,irradiance,move\n0,0,0,1,2\n' "$kind" >"$folder/points_$kind"
         printf '%sradius,irradiance,weight\n0,1,1\n1,0.5,2\n' "$kind" >"$folder/radial_$kind"
         printf '%sangle,intensity\n0,1\n10,0.5\n' "$kind" >"$folder/angles_$kind"
+      done
+      ;;
+    lm63)
+      local counts='1 -1 1 3 2 1 2 0.1 0.2 0 1 1 10' head
+      for head in '' 'IESNA91' 'IESNA:LM-63-1995' 'IESNA:LM-63-2002' 'IES:LM-63-2019'; do
+        printf '%s\n[TEST] 1\n[MORE] 2\nTILT=NONE\n%s\n0 45 90\n0 90\n3 2 1\n3 1 0\n' "$head" "$counts" >"$folder/c_${head:0-4}"
+        printf '%s\nTILT=INCLUDE\n1 2 0 90 1 1\n%s\n0 45 90\n0 90\n3 2 1\n3 1 0\n' "$head" "${counts/2 1 2/2 2 1}" >"$folder/b_${head:0-4}"
+      done
+      ;;
+    eulumdat)
+      for symmetry in 0 1 2 3 4; do
+        { printf 'c\n3\n%s\n4\n90\n3\n45\nr\nn\nn\nf\nd\n' $symmetry
+          printf '1\n%.0s' 1 2 3 4 5 6 7 8 9 10 11 12 && printf '0\n1\n2\nLED\n2000\n4000\n80\n25\n'
+          printf '0.5\n%.0s' 1 2 3 4 5 6 7 8 9 10 && printf '0\n90\n180\n270\n0\n45\n90\n'
+          printf '5\n2,5\n1\n%.0s' $(seq $((symmetry == 0 ? 4 : symmetry == 1 ? 1 : symmetry == 4 ? 2 : 3)))
+        } >"$folder/isym_$symmetry"
       done
       ;;
     layout) cp data/profiles/*.igs "$folder" ;;
