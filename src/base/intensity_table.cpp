@@ -14,7 +14,7 @@ namespace catoptric {
 namespace {
 
 constexpr double greatest_intensity = 1e100;  // far above any light, and sums of it stay finite
-constexpr double degree = pi / 180;
+constexpr double rad_per_degree = pi / 180;
 
 [[noreturn]] void refuse_table(std::string what, std::string why) {
   throw InputError({std::move(what), "intensity table", std::move(why), ""});
@@ -121,13 +121,13 @@ double IntensityTable::zonal_flux(double from_deg, double to_deg) const {
     // A plane counts for half of the way to each neighbour.
     const double before = plane == 0 ? c_deg_.back() - 360 : c_deg_[plane - 1];
     const double after = plane + 1 == c_deg_.size() ? 360 : c_deg_[plane + 1];
-    const double width = is_rotational() ? 2 * pi : (after - before) / 2 * degree;
+    const double width = is_rotational() ? 2 * pi : (after - before) / 2 * rad_per_degree;
     for (std::size_t i = 0; i + 1 < gamma_deg_.size(); ++i) {
       const double begin = gamma_deg_[i], end = gamma_deg_[i + 1];
       const double a = std::max(begin, from_deg), b = std::min(end, to_deg);
       if (a >= b) continue;
       const double first = value(plane, i), last = value(plane, i + 1);
-      sum.add(width * zone_integral(a * degree, b * degree,
+      sum.add(width * zone_integral(a * rad_per_degree, b * rad_per_degree,
                                     std::lerp(first, last, (a - begin) / (end - begin)),
                                     std::lerp(first, last, (b - begin) / (end - begin))));
     }

@@ -101,6 +101,7 @@ TEST_CASE("symmetric planes are spread over the full turn") {
   CHECK(planes_of("0 30 360", "1 2 3 4 1 2", 3) == std::vector<double>{0, 30});
   CHECK(planes_of("0 120 240", "1 2 3 4 5 6", 3) == std::vector<double>{0, 120, 240});
   CHECK(planes_of("90 120 180 270", "1 2 3 4 5 6 7 8", 4) == std::vector<double>{0, 60, 90, 120, 180, 270});
+  CHECK(planes_of("90 180 200 270", "1 2 3 4 5 6 7 8", 4) == std::vector<double>{0, 90, 180, 200, 270, 340});
   CHECK(planes_of("90 120 270", "1 2 3 4 5 6", 3) == std::vector<double>{0, 60, 90, 120, 270});
 }
 
