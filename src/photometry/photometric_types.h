@@ -8,7 +8,7 @@ namespace catoptric::photometry {
 /// its direction (horizontal h, vertical v) is
 ///   type A: x = cos v sin h, y = sin v,       z = cos v cos h   (polar axis y)
 ///   type B: x = sin h,       y = cos h sin v, z = cos h cos v   (polar axis x)
-/// @from  CIE 121-1996, section 4 (A-, B- and C-planes)
+/// @from  CIE 121-1996 (A-, B- and C-planes)
 IntensityTable resampled_as_type_c(const Lm63File& file);
 
 }  // namespace catoptric::photometry

@@ -23,7 +23,7 @@ IntensityTable cosine() {
 }  // namespace
 
 TEST_CASE("direct ratios of a cosine are the view factors of parallel squares") {
-  // Howell, A Catalog of Radiation Heat Transfer Configuration Factors, C-11, for equal squares of side x h
+  // Howell, A Catalog of Radiation Heat Transfer Configuration Factors, for equal squares of side x h
   for (const double index : room_indices) {
     const double x = 2 * index, root = std::sqrt(1 + x * x);
     const double factor = 2 / (pi * x * x) *
