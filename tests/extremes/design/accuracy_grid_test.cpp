@@ -4,6 +4,7 @@
 #include "design/evaluator.h"
 #include "design/run.h"
 #include "support/extreme_scenes.h"
+#include "support/refusal.h"
 #include "support/scaled_scene.h"
 
 /// An accuracy asked of scenes drawn from a grid of extremes, by every rung: refused in words, or a field
@@ -32,10 +33,7 @@ std::optional<Judgement> judged(const test::ExtremeScene& drawn, const char* run
     CHECK(test::defect(scene, judgement) == "");
     return judgement;
   } catch (const Error& error) {
-    CHECK(!error.parts().what.empty());
-    CHECK(!(error.parts().why.empty() && error.parts().hint.empty()));
-    CHECK((error.exit_code() == ExitCode::scene_invalid ||
-           error.exit_code() == ExitCode::geometry_or_exchange));
+    test::check_refusal(error);
     ++found.refused;
     return std::nullopt;
   }

@@ -7,6 +7,7 @@
 #include "design/run.h"
 #include "support/cad/exact_hits.h"
 #include "support/extreme_scenes.h"
+#include "support/refusal.h"
 #include "support/scaled_scene.h"
 
 /// Whole scenes drawn from a grid of extremes, each by every rung: refused in words, or sound numbers that
@@ -98,10 +99,7 @@ void run(std::uint64_t number, Found& found) {
       ++found.by_rung[fields.size()];
       fields.emplace(rung, std::move(result.mirror.judgement));
     } catch (const Error& error) {
-      CHECK(!error.parts().what.empty());
-      CHECK(!(error.parts().why.empty() && error.parts().hint.empty()));
-      CHECK((error.exit_code() == ExitCode::scene_invalid ||
-             error.exit_code() == ExitCode::geometry_or_exchange));
+      test::check_refusal(error);
       ++found.refused;
       ++found.refusals[error.parts().what + ": " + error.parts().why];
     }

@@ -3,6 +3,7 @@
 
 #include "design/run.h"
 #include "design/tailored_start.h"
+#include "support/refusal.h"
 #include "support/scaled_scene.h"
 
 using namespace catoptric;
@@ -60,8 +61,7 @@ void run(const std::string& text, Found& found) {
     // The kernel smooths away much of what tubes see, and adds what it blurs.
     CHECK(error <= 1.1 * *start.light_error_rel + start.unreachable_rel + 0.02);
   } catch (const Error& error) {
-    CHECK(!error.parts().what.empty());
-    CHECK(!(error.parts().why.empty() && error.parts().hint.empty()));
+    test::check_refusal(error);
     CHECK(error.exit_code() == ExitCode::scene_invalid);
     ++found.refusals[error.parts().what.substr(0, 50) + ": " + error.parts().why];
   }
