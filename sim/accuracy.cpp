@@ -226,7 +226,7 @@ AccurateField by_tubes(const Scene& scene, std::span<const FieldSample> samples,
   field.rung = Rung::tubes;
   TubesOptions options;
   options.most_interactions = request.photons.most_interactions;
-  options.most_meetings = 2'000'000;  // a second or two: in cavities photons are worth more
+  options.most_meetings = 2'000'000;  // some seconds at worst: in cavities photons are worth more
   // The field is at least the direct light, so that a share of it is a share of the field allowed too.
   constexpr double share = 0.1;
   const std::vector<double> dark(direct.size(), 0.0);
