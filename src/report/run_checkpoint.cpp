@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/errors.h"
@@ -39,8 +40,9 @@ optim::Answer answer_of(const ordered_json& row) {
 
 }  // namespace
 
-Checkpoint::Checkpoint(const design::Scene& scene, const std::filesystem::path& folder)
-    : path_(folder / "checkpoint.json"), scene_(searched(scene)) {}
+Checkpoint::Checkpoint(const design::Scene& scene, const std::filesystem::path& folder,
+                       std::function<Clock::time_point()> now)
+    : now_(std::move(now)), path_(folder / "checkpoint.json"), scene_(searched(scene)) {}
 
 bool Checkpoint::exists() const { return std::filesystem::exists(path_); }
 
@@ -72,13 +74,13 @@ std::vector<optim::Answer> Checkpoint::read() const {
 
 bool Checkpoint::keep(const optim::SearchTape& tape) {
   constexpr int dearest_share = 20;
-  if (Clock::now() - written_ < dearest_share * cost_) return false;
+  if (now_() - written_ < dearest_share * cost_) return false;
   write(tape);
   return true;
 }
 
 void Checkpoint::write(const optim::SearchTape& tape) {
-  const auto begin = Clock::now();
+  const auto begin = now_();
   ordered_json saved = {{"about", "a search on its way: design --resume goes on from here"},
                         {"version", version()},
                         {"scene", scene_},
@@ -88,7 +90,7 @@ void Checkpoint::write(const optim::SearchTape& tape) {
   ordered_json& rows = saved["answers"] = ordered_json::array();
   for (const optim::Answer& answer : tape.answers()) rows.push_back(as_json(answer));
   write_file_whole(path_, saved.dump() + "\n");
-  written_ = Clock::now();
+  written_ = now_();
   cost_ = written_ - begin;
 }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,11 @@ namespace catoptric::report {
 /// how to show it may differ when the search is resumed.
 class Checkpoint {
  public:
-  Checkpoint(const design::Scene& scene, const std::filesystem::path& folder);
+  using Clock = std::chrono::steady_clock;
+
+  /// @param now   tells the time; a test has its own
+  Checkpoint(const design::Scene& scene, const std::filesystem::path& folder,
+             std::function<Clock::time_point()> now = Clock::now);
 
   bool exists() const;
 
@@ -40,7 +45,7 @@ class Checkpoint {
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
+  std::function<Clock::time_point()> now_;
   std::filesystem::path path_;
   std::string scene_;
   Clock::time_point written_{};

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "base/errors.h"
 #include "report/run_checkpoint.h"
@@ -46,33 +46,46 @@ TEST_CASE("a checkpoint gives back every answer bit for bit") {
 }
 
 TEST_CASE("slow evaluations are all saved, quick ones so seldom that saving is a twentieth of the time") {
+  using namespace std::chrono_literals;
   const TemporaryFolder folder;
-  report::Checkpoint checkpoint(scene(), folder.path());
+  report::Checkpoint::Clock::time_point time{1h};
+  auto tick = 0ms;  // each look at the clock takes this long, so that a write, which looks twice, does too
+  report::Checkpoint checkpoint(scene(), folder.path(), [&] { return time += tick; });
   optim::SearchTape tape;
-  using Clock = std::chrono::steady_clock;
-  std::vector<Clock::duration> writes;
+  std::vector<std::size_t> saved;
   tape.grown = [&](const optim::SearchTape& grown) {
-    const auto begin = Clock::now();
-    if (checkpoint.keep(grown)) writes.push_back(Clock::now() - begin);
+    if (!checkpoint.keep(grown)) return;
+    saved.push_back(grown.answers().size());
+    CHECK(saved_answers(checkpoint.path()) == grown.answers().size());
   };
-  for (int i = 0; i < 3; ++i) {
-    tape.record(std::array{1.0 * i}, 1);
-    CHECK(writes.size() == static_cast<std::size_t>(i + 1));
-    CHECK(saved_answers(checkpoint.path()) == tape.answers().size());
-    std::this_thread::sleep_for(std::chrono::seconds(1));  // 20 times the 50 ms that a slow disk may take
+  const auto evaluate = [&](int times, std::chrono::milliseconds cost) {
+    for (int i = 0; i < times; ++i) {
+      time += cost;
+      tape.record(std::array{1.0 * i}, 1);
+    }
+  };
+  SECTION("the first answer, and each that took twenty times what a write takes") {
+    tick = 10ms;
+    evaluate(4, 200ms);
+    CHECK(saved == std::vector<std::size_t>{1, 2, 3, 4});
   }
-  writes.clear();
-  const auto begin = Clock::now();
-  while (tape.answers().size() < 1000 || writes.size() < 2) {
-    tape.record(std::array{0.5}, 1);
-    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  SECTION("a write of 10 ms is paid for by 200 ms") {
+    tick = 10ms;
+    evaluate(1, 0ms);
+    tick = 0ms;
+    evaluate(199, 1ms);
+    CHECK(saved == std::vector<std::size_t>{1});
+    evaluate(1, 1ms);
+    CHECK(saved == std::vector<std::size_t>{1, 201});
   }
-  const auto spent = Clock::now() - begin;
-  CHECK(writes.size() < tape.answers().size() / 2);
-  // Each write but the last has been paid for by twenty times its cost before the next.
-  Clock::duration paid{};
-  for (std::size_t i = 0; i + 1 < writes.size(); ++i) paid += writes[i];
-  CHECK(19 * paid < spent);
+  SECTION("a disk that became quick is trusted again") {
+    tick = 10ms;
+    evaluate(1, 0ms);
+    tick = 0ms;
+    evaluate(1, 200ms);  // a write that takes no time
+    evaluate(3, 1ms);
+    CHECK(saved == std::vector<std::size_t>{1, 2, 3, 4, 5});
+  }
 }
 
 TEST_CASE("a checkpoint is of its scene, but for budget, threads and title") {
