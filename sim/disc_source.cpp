@@ -6,18 +6,14 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 
-#include "base/errors.h"
 #include "base/units.h"
-#include "sim/frame.h"
 #include "sim/projection_map.h"
 
 namespace catoptric::sim {
 namespace {
 
-constexpr CosineLaw lambert{1};
-
 Emitter emitter_of(const Vector3& center_mm, double radius_mm, const Vector3& normal) {
-  return {center_mm, radius_mm, lambert, normal};
+  return {center_mm, radius_mm, CosineLaw::lambert(), normal};
 }
 
 /// Lambert's formula takes the angle under which each piece of the contour is seen, times how far its plane
@@ -31,18 +27,14 @@ double rim_term(const Vector3& at, const Vector3& step, const Vector3& normal) {
 
 LambertianDisc::LambertianDisc(const Vector3& center_mm, double radius_mm, const Vector3& normal,
                                double power_w)
-    : center_mm_(center_mm), radius_mm_(radius_mm), power_w_(power_w) {
-  check_source(center_mm, power_w, normal);
-  if (!(std::isfinite(radius_mm) && radius_mm > 0))
-    throw InputError({fmt::format("radius of {} mm", radius_mm), "source",
-                      "a disc's radius is positive and finite", "a point source needs none"});
-  frame_ = frame_about(unit_axis(normal));
+    : LambertianSurface(center_mm, normal, power_w), radius_mm_(radius_mm) {
+  require_size(radius_mm, "radius");
 }
 
-double LambertianDisc::exitance() const { return power_w_ / (pi * radius_mm_) / radius_mm_; }
+double LambertianDisc::exitance() const { return power_w() / (pi * radius_mm_) / radius_mm_; }
 
 double LambertianDisc::intensity_w_per_sr(const Vector3& direction) const {
-  return power_w_ / pi * lambert(direction.dot(frame_.col(2)));
+  return power_w() / pi * CosineLaw::lambert()(direction.dot(frame().col(2)));
 }
 
 std::string LambertianDisc::words() const {
@@ -50,31 +42,32 @@ std::string LambertianDisc::words() const {
 }
 
 ProjectionMap LambertianDisc::directions_to(const Profile& mirror) const {
-  return ProjectionMap::towards(mirror, emitter_of(center_mm_, radius_mm_, frame_.col(2)));
+  return ProjectionMap::towards(mirror, emitter_of(center_mm(), radius_mm_, frame().col(2)));
 }
 
 ProjectionMap LambertianDisc::all_directions() const {
-  return ProjectionMap::all_lit(emitter_of(center_mm_, radius_mm_, frame_.col(2)));
+  return ProjectionMap::all_lit(emitter_of(center_mm(), radius_mm_, frame().col(2)));
 }
 
 double LambertianDisc::power_into_w(const ProjectionMap& map) const {
-  return map.light_sr() / lambert.total_sr() * power_w_;
+  return map.light_sr() / CosineLaw::lambert().total_sr() * power_w();
 }
 
-Vector3 LambertianDisc::place(double share_of_area, double turns) const {
-  const double r_mm = radius_mm_ * std::sqrt(share_of_area);
-  return center_mm_ + r_mm * std::cos(2 * pi * turns) * frame_.col(0) +
-         r_mm * std::sin(2 * pi * turns) * frame_.col(1);
+LambertianSurface::Place LambertianDisc::place(double first, double second) const {
+  const double r_mm = radius_mm_ * std::sqrt(first);
+  return {center_mm() + r_mm * std::cos(2 * pi * second) * frame().col(0) +
+              r_mm * std::sin(2 * pi * second) * frame().col(1),
+          frame().col(2)};
 }
 
 Ray LambertianDisc::emit(const ProjectionMap& map, const std::array<double, 4>& numbers) const {
-  return {place(numbers[2], numbers[3]), map.direction(numbers[0], numbers[1])};
+  return {place(numbers[2], numbers[3]).point_mm, map.direction(numbers[0], numbers[1])};
 }
 
 double LambertianDisc::unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const {
   // In the disc's frame and in its radii.
-  const Vector3 local = frame_.transpose() * (point_mm - center_mm_) / radius_mm_;
-  const Vector3 facing = frame_.transpose() * normal;
+  const Vector3 local = frame().transpose() * (point_mm - center_mm()) / radius_mm_;
+  const Vector3 facing = frame().transpose() * normal;
   if (!(local.z() > 0)) return 0;
   const double middle = -local.dot(facing), swing = facing.head<2>().norm();
   if (middle <= -swing) return 0;  // all of the disc is behind the element
@@ -117,25 +110,6 @@ double LambertianDisc::of_part(const Vector3& local, const Vector3& normal) cons
   const double chord = std::atan2(last.cross(first).dot(normal), last.dot(first));
   // From the element's side the rim runs the other way round; the sign makes light positive.
   return std::abs(arc + chord) / (2 * pi);
-}
-
-double LambertianDisc::direct_w_per_mm2(const Vector3& point_mm, const Vector3& normal, Probe& mirror,
-                                        double lift_mm) const {
-  const double unhindered = unhindered_w_per_mm2(point_mm, normal);
-  if (!(unhindered > 0)) return 0;
-  // Rings of equal area, each turned against the last by the golden section: evener than chance, and fixed.
-  constexpr int places = 256;
-  const double golden = 0.5 * (std::sqrt(5.0) - 1);
-  double all = 0, free = 0;
-  for (int i = 0; i < places; ++i) {
-    const Vector3 from = place((i + 0.5) / places, i * golden);
-    const Vector3 way = from - point_mm;
-    const double square = way.squaredNorm();
-    const double weight = std::max(0.0, way.dot(normal)) * -way.dot(frame_.col(2)) / (square * square);
-    all += weight;
-    if (weight > 0 && !mirror.blocks(from, point_mm, lift_mm)) free += weight;
-  }
-  return all > 0 ? unhindered * (free / all) : 0;
 }
 
 }  // namespace catoptric::sim

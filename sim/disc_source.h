@@ -1,21 +1,17 @@
 #pragma once
 
-#include <Eigen/Core>
-
-#include "sim/source.h"
+#include "sim/lambertian_surface.h"
 
 namespace catoptric::sim {
 
 /// A flat disc that radiates from the side of its normal by Lambert's law, everywhere alike; the other side
-/// is dark. It stands in no light's way: a mirror's light passes through it as if it were not there.
-class LambertianDisc final : public Source {
+/// is dark.
+class LambertianDisc final : public LambertianSurface {
  public:
   /// @fails InputError as PointSource, and for a radius that is not positive and finite
   LambertianDisc(const Vector3& center_mm, double radius_mm, const Vector3& normal, double power_w);
-  double power_w() const override { return power_w_; }
-  Vector3 position_mm() const override { return center_mm_; }
   double extent_mm() const override { return radius_mm_; }
-  double tilt_rad() const override { return tilt_of(frame_.col(2)); }
+  double tilt_rad() const override { return tilt_of(frame().col(2)); }
   double intensity_w_per_sr(const Vector3& direction) const override;
   std::string words() const override;
   std::string left_out() const override { return "the disc itself stands in no light's way"; }
@@ -33,22 +29,13 @@ class LambertianDisc final : public Source {
   /// @from  configuration factors of a disc: Hamilton & Morgan 1952; rim: Lambert's formula for any contour
   double unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const override;
 
-  /// The unhindered irradiance times the share of it that a fixed set of points of the disc can send past the
-  /// mirror.
-  /// @error where the mirror hides part of the disc, about a hundredth of the unhindered irradiance
-  /// @cost  256 questions to the probe, on the lit side
-  double direct_w_per_mm2(const Vector3& point_mm, const Vector3& normal, Probe& mirror,
-                          double lift_mm) const override;
-
  private:
   double exitance() const;
   double of_whole(const Vector3& local, const Vector3& normal) const;
   double of_part(const Vector3& local, const Vector3& normal) const;
-  Vector3 place(double share_of_area, double turns) const;
+  Place place(double first, double second) const override;
 
-  Vector3 center_mm_;
-  double radius_mm_, power_w_;
-  Eigen::Matrix3d frame_;  ///< columns: two directions in the disc, the normal
+  double radius_mm_;
 };
 
 }  // namespace catoptric::sim

@@ -146,7 +146,7 @@ class CellGrid {
   /// Marks every cell that the rectangle of polar angle and azimuth round the cone touches.
   void mark(const Cone& cone) {
     const double least = cone.polar_rad - cone.half_angle_rad, most = cone.polar_rad + cone.half_angle_rad;
-    if (!law_.is_even() && least >= 0.5 * pi) return;  // behind the source
+    if (!law_.lights_behind() && least >= 0.5 * pi) return;  // behind the source
     const int top = row_of(least <= 0 ? 1.0 : std::cos(least));
     const int bottom = row_of(most >= pi ? -1.0 : std::cos(most));
     int first = 0, count = columns;
@@ -215,13 +215,15 @@ ProjectionMap ProjectionMap::all_lit(const Emitter& emitter) {
   const Vector3& axis = emitter.axis;
   const bool level = axis.x() == 0 && axis.y() == 0, down = level && axis.z() < 0;
   if (!emitter.law.is_even() && !level) map.frame_ = frame_about(axis);
-  map.add_band(emitter.law.is_even() || down ? -1 : 0, !emitter.law.is_even() && down ? 0 : 1, {{0, 2 * pi}});
+  const bool both = emitter.law.lights_behind();
+  map.add_band(both || down ? -1 : 0, !both && down ? 0 : 1, {{0, 2 * pi}});
   return map;
 }
 
 ProjectionMap ProjectionMap::towards(const Profile& profile, const Emitter& emitter) {
   const Vector3 &at = emitter.center_mm, &axis = emitter.axis;
-  const bool straight = emitter.law.is_even() ? emitter.radius_mm == 0 : axis.x() == 0 && axis.y() == 0;
+  const bool is_level_disc = emitter.is_flat && axis.x() == 0 && axis.y() == 0;
+  const bool straight = emitter.law.is_even() ? emitter.radius_mm == 0 : is_level_disc;
   ProjectionMap map =
       at.x() == 0 && at.y() == 0 && straight ? from_axis(profile, emitter) : from_aside(profile, emitter);
   return map.bands_.empty() ? all_lit(emitter) : map;
@@ -244,8 +246,8 @@ ProjectionMap ProjectionMap::from_axis(const Profile& profile, const Emitter& em
     if (measure(*found) - certain_measure(profile, boxes, z_mm) <= most_waste * measure(*found)) break;
   }
   ProjectionMap map(emitter.law);
-  const bool even = emitter.law.is_even(), down = emitter.axis.z() < 0;
-  const double low = even || down ? -1 : 0, high = !even && down ? 0 : 1;
+  const bool both = emitter.law.lights_behind(), down = emitter.axis.z() < 0;
+  const double low = both || down ? -1 : 0, high = !both && down ? 0 : 1;
   for (const Interval& part : seen)
     map.add_band(std::max(low, part.low), std::min(high, part.high), {{0, 2 * pi}});
   return map;
@@ -254,7 +256,7 @@ ProjectionMap ProjectionMap::from_axis(const Profile& profile, const Emitter& em
 ProjectionMap ProjectionMap::from_aside(const Profile& profile, const Emitter& emitter) {
   const Vector3 center(0, 0, 0.5 * (profile.z_min_mm() + profile.z_max_mm()));
   const Vector3 way = center - emitter.center_mm;
-  const bool even = emitter.law.is_even();
+  const bool even = emitter.law.is_even(), both = emitter.law.lights_behind();
   ProjectionMap map(emitter.law);
   // From near the centre every axis is as good; z keeps the rim parallel to the rows.
   constexpr double near_share = 0.01;
@@ -268,9 +270,10 @@ ProjectionMap ProjectionMap::from_aside(const Profile& profile, const Emitter& e
     widest_rad = std::max(widest_rad, cone.polar_rad + cone.half_angle_rad);
     narrowest_rad = std::min(narrowest_rad, cone.polar_rad - cone.half_angle_rad);
   }
-  const double low = even ? std::cos(std::min(pi, widest_rad)) : std::cos(std::min(0.5 * pi, widest_rad));
-  CellGrid grid(emitter.law, std::max(even ? -1.0 : 0.0, low),
-                even ? 1.0 : std::cos(std::clamp(narrowest_rad, 0.0, 0.5 * pi)));
+  const double farthest_rad = both ? pi : 0.5 * pi;
+  const double low = std::cos(std::min(farthest_rad, widest_rad));
+  CellGrid grid(emitter.law, std::max(both ? -1.0 : 0.0, low),
+                even ? 1.0 : std::cos(std::clamp(narrowest_rad, 0.0, farthest_rad)));
   if (!grid.has_light()) return map;
   for (const Cone& cone : *cones) grid.mark(cone);
 

@@ -10,13 +10,14 @@
 
 namespace catoptric::sim {
 
-/// What a source is for its projection map: a flat disc across its axis, or a point, whose every part shines
-/// by the same law about the axis.
+/// What a source is for its projection map: a flat disc across its axis, a point, or a ball that holds the
+/// source, whose every part shines by the same law about the axis.
 struct Emitter {
   Vector3 center_mm;
   double radius_mm = 0;
   CosineLaw law = {};
   Vector3 axis = Vector3::UnitZ();  ///< unit; of no meaning where the law is even
+  bool is_flat = true;              ///< a disc; else a ball
 };
 
 /// The directions from a source that may meet the mirror, the brighter ones the oftener; photons are sent

@@ -203,6 +203,8 @@ std::optional<std::string> rings_objection(const Scene& scene) {
   if (aside_mm > tolerance.length_mm)
     return fmt::format("the source is {:.4g} mm off the axis, so the light differs from azimuth to azimuth",
                        aside_mm);
+  if (!scene.source.is_round())
+    return "the source is not round, so the light differs from azimuth to azimuth";
   if (scene.source.tilt_rad() > tolerance.angle_rad)
     return fmt::format("the source's axis is tilted by {:.4g} degrees against the mirror's",
                        scene.source.tilt_rad() * 180 / pi);

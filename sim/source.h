@@ -29,6 +29,9 @@ class Source {
   /// every axis will do. On the z axis with no tilt, the light is the same all round it.
   virtual double tilt_rad() const { return 0; }
 
+  /// Whether the source and its light are symmetric about that axis.
+  virtual bool is_round() const { return true; }
+
   /// Power per solid angle in a direction, W/sr, as seen from so far that the source is a point.
   /// @in    direction: a unit vector
   virtual double intensity_w_per_sr(const Vector3& direction) const = 0;

@@ -9,7 +9,10 @@
 #include "base/contract.h"
 #include "base/profile_limits.h"
 #include "design/variables.h"
+#include "sim/cylinder_source.h"
 #include "sim/disc_source.h"
+#include "sim/rectangle_source.h"
+#include "sim/sphere_source.h"
 
 namespace catoptric::design {
 namespace {
@@ -52,12 +55,38 @@ std::vector<std::string> shape_names(const std::vector<std::string>& all) {
 }  // namespace
 
 std::unique_ptr<sim::Source> make_source(const SourceSpec& spec) {
-  if (spec.kind == SourceKind::disc)
-    return std::make_unique<sim::LambertianDisc>(spec.position_mm, spec.radius_mm, spec.axis, spec.power_w);
-  return std::make_unique<sim::PointSource>(spec.position_mm, spec.power_w, spec.exponent, spec.axis);
+  const Vector3& at_mm = spec.position_mm;
+  switch (spec.kind) {
+    case SourceKind::disc:
+      return std::make_unique<sim::LambertianDisc>(at_mm, spec.radius_mm, spec.axis, spec.power_w);
+    case SourceKind::rectangle:
+      return std::make_unique<sim::LambertianRectangle>(at_mm, spec.axis, spec.along, spec.width_mm,
+                                                        spec.height_mm, spec.power_w);
+    case SourceKind::sphere:
+      return std::make_unique<sim::LambertianSphere>(at_mm, spec.radius_mm, spec.power_w);
+    case SourceKind::cylinder:
+      return std::make_unique<sim::LambertianCylinder>(at_mm, spec.axis, spec.radius_mm, spec.length_mm,
+                                                       spec.power_w);
+    case SourceKind::point:
+      break;
+  }
+  return std::make_unique<sim::PointSource>(at_mm, spec.power_w, spec.exponent, spec.axis);
 }
 
-double far_exponent(const SourceSpec& spec) { return spec.kind == SourceKind::disc ? 1 : spec.exponent; }
+std::optional<double> far_exponent(const SourceSpec& spec) {
+  switch (spec.kind) {
+    case SourceKind::disc:
+    case SourceKind::rectangle:
+      return 1;
+    case SourceKind::sphere:
+      return 0;
+    case SourceKind::cylinder:
+      return std::nullopt;
+    case SourceKind::point:
+      break;
+  }
+  return spec.exponent;
+}
 
 std::optional<SceneVariable> parse_scene_variable(std::string_view name) {
   for (const auto& [variable, text] : names)

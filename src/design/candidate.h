@@ -18,22 +18,26 @@
 
 namespace catoptric::design {
 
-enum class SourceKind { point, disc };
+enum class SourceKind { point, disc, rectangle, sphere, cylinder };
 
 struct SourceSpec {
   Vector3 position_mm;
   double power_w;
   SourceKind kind = SourceKind::point;
-  double exponent = 0;              ///< of a point
-  Vector3 axis = Vector3::UnitZ();  ///< of a point's intensity; a disc's normal
-  double radius_mm = 0;             ///< of a disc
+  double exponent = 0;                 ///< of a point
+  Vector3 axis = Vector3::UnitZ();     ///< of a point's intensity, of a cylinder; normal of what is flat
+  double radius_mm = 0;                ///< of disc, sphere and cylinder
+  double length_mm = 0;                ///< of a cylinder
+  double width_mm = 0, height_mm = 0;  ///< of a rectangle
+  Vector3 along = Vector3::UnitX();    ///< direction of its width
 };
 
 /// The source as the light room has it.
 std::unique_ptr<sim::Source> make_source(const SourceSpec& spec);
 
-/// The exponent of its intensity's cosine from afar: a disc is Lambert's, 0 is alike in all directions.
-double far_exponent(const SourceSpec& spec);
+/// The exponent of its intensity's cosine from afar: what is flat is Lambert's, 0 is alike in all directions;
+/// nothing for a cylinder, which follows a sine.
+std::optional<double> far_exponent(const SourceSpec& spec);
 
 /// What a design vector decides: the mirror's shape, and the source and the mirror's surface it is judged
 /// with.

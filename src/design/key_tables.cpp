@@ -31,12 +31,16 @@ const std::vector<Key>& scene_table() {
       {.path = "tailored.degree", .type = integer, .least = 2, .greatest = 9, .standard = "3", .meaning = "degree of a generatrix made from nothing"},
       {.path = "tailored.points", .type = integer, .least = 3, .greatest = 64, .standard = "10", .meaning = "its control points"},
 
-      {.path = "source.kind", .type = choice, .choices = {"point", "disc"}, .standard = "\"point\"", .meaning = "a point, or a flat disc that radiates by Lambert's law on one side"},
+      {.path = "source.kind", .type = choice, .choices = {"point", "disc", "rectangle", "sphere", "cylinder"}, .standard = "\"point\"", .meaning = "a point; or a surface that radiates by Lambert's law: one side of a flat disc or rectangle, a sphere, the side of a cylinder"},
       {.path = "source.position", .type = numbers, .quantity = Q::length, .least = -far, .greatest = far, .count = 3, .standard = "[0.0, 0.0, 0.0]", .meaning = "x, y, z of the source, of a disc's centre"},
       {.path = "source.power", .type = number, .quantity = Q::power_w, .least = least_power_w, .greatest = 1e12, .meaning = "radiant power of the source, W"},
       {.path = "source.exponent", .type = number, .least = 0, .greatest = sim::greatest_exponent, .meaning = "point: its intensity goes like this power of the cosine to its axis, with nothing behind; 0, when left out: alike in all directions"},
       {.path = "source.axis", .type = numbers, .least = -far, .greatest = far, .count = 3, .meaning = "direction in which the source is brightest, of a disc the side that radiates; [0, 0, 1] when left out"},
-      {.path = "source.radius", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "disc: its radius"},
+      {.path = "source.radius", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "disc, sphere, cylinder: its radius"},
+      {.path = "source.length", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "cylinder: its length"},
+      {.path = "source.width", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "rectangle: its width"},
+      {.path = "source.height", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "rectangle: its height"},
+      {.path = "source.along", .type = numbers, .least = -far, .greatest = far, .count = 3, .meaning = "rectangle: direction of its width, taken across the axis; [1, 0, 0] when left out"},
 
       {.path = "reflector.name", .type = text, .standard = "\"reflector\"", .meaning = "name of the part in exchange files"},
       {.path = "reflector.degree", .type = integer, .least = 1, .greatest = 9, .meaning = "degree of the generatrix"},

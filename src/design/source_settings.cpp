@@ -1,5 +1,12 @@
 #include "design/source_settings.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
 namespace catoptric::design {
 namespace {
 
@@ -7,24 +14,58 @@ void refuse(const Settings& settings, const char* path, const char* why) {
   if (settings.has(path)) throw settings.error(path, "does not belong to this source", why, "remove it");
 }
 
+void settings_default(Settings& settings, const char* path, const char* text) {
+  if (!settings.has(path)) settings.set({path, text, "default"});
+}
+
+const std::map<std::string, SourceKind> kinds{{"point", SourceKind::point},
+                                              {"disc", SourceKind::disc},
+                                              {"rectangle", SourceKind::rectangle},
+                                              {"sphere", SourceKind::sphere},
+                                              {"cylinder", SourceKind::cylinder}};
+
+/// A key that belongs to some kinds alone.
+struct OwnKey {
+  const char* path;
+  std::vector<std::string> kinds;
+  const char* why_not;
+  bool is_needed;
+};
+const OwnKey own_keys[] = {
+    {"source.exponent", {"point"}, "a surface radiates by Lambert's law", false},
+    {"source.radius",
+     {"disc", "sphere", "cylinder"},
+     "a point has no size, a rectangle width and height",
+     true},
+    {"source.length", {"cylinder"}, "only a cylinder has one", true},
+    {"source.width", {"rectangle"}, "only a rectangle has one", true},
+    {"source.height", {"rectangle"}, "only a rectangle has one", true},
+    {"source.along", {"rectangle"}, "only a rectangle's width has a direction", false},
+};
+
 }  // namespace
 
 void complete_source(Settings& settings) {
   if (!settings.has("source.power"))
     throw settings.error("source.power", "is missing", "a source needs its power in W", "source.power = 1.0");
-  const bool disc = settings.text("source.kind") == "disc";
-  if (disc) {
-    refuse(settings, "source.exponent", "a disc radiates by Lambert's law");
-    if (!settings.has("source.radius"))
-      throw settings.error("source.radius", "is missing", "a disc needs it", "source.radius = 5");
-  } else {
-    refuse(settings, "source.radius", "a point has no size");
-    if (!settings.has("source.exponent")) settings.set({"source.exponent", "0.0", "default"});
+  const std::string kind = *settings.text("source.kind");
+  for (const OwnKey& key : own_keys) {
+    const bool owned = std::ranges::find(key.kinds, kind) != key.kinds.end();
+    if (!owned) refuse(settings, key.path, key.why_not);
+    if (owned && key.is_needed && !settings.has(key.path))
+      throw settings.error(key.path, "is missing", fmt::format("a {} needs it", kind),
+                           fmt::format("{} = 5", key.path));
   }
-  const bool has_axis =
-      disc || *settings.number("source.exponent") > 0 || settings.has("variables.source.exponent.step");
-  if (!has_axis) refuse(settings, "source.axis", "with exponent 0 light is the same in all directions");
-  if (has_axis && !settings.has("source.axis")) settings.set({"source.axis", "[0.0, 0.0, 1.0]", "default"});
+  const bool point = kind == "point";
+  if (point) settings_default(settings, "source.exponent", "0.0");
+  if (kind == "rectangle") settings_default(settings, "source.along", "[1.0, 0.0, 0.0]");
+  const bool even = kind == "sphere" || (point && !(*settings.number("source.exponent") > 0) &&
+                                         !settings.has("variables.source.exponent.step"));
+  if (even)
+    refuse(settings, "source.axis",
+           point ? "with exponent 0 light is the same in all directions" : "a sphere has none");
+  else
+    settings_default(settings, "source.axis", "[0.0, 0.0, 1.0]");
 }
 
 SourceSpec source_spec(const Settings& settings, double unit_mm) {
@@ -32,16 +73,26 @@ SourceSpec source_spec(const Settings& settings, double unit_mm) {
     const Numbers v = *settings.numbers(path);
     return Vector3(v[0], v[1], v[2]);
   };
+  const auto length = [&](const char* path) { return settings.number(path).value_or(0) * unit_mm; };
   SourceSpec spec{unit_mm * vector("source.position"), *settings.number("source.power")};
-  if (settings.text("source.kind") == "disc") {
-    spec.kind = SourceKind::disc;
-    spec.radius_mm = *settings.number("source.radius") * unit_mm;
-  } else {
-    spec.exponent = *settings.number("source.exponent");
-  }
+  spec.kind = kinds.at(*settings.text("source.kind"));
+  spec.exponent = settings.number("source.exponent").value_or(0);
+  spec.radius_mm = length("source.radius");
+  spec.length_mm = length("source.length");
+  spec.width_mm = length("source.width");
+  spec.height_mm = length("source.height");
   if (settings.has("source.axis")) {
     spec.axis = vector("source.axis");
     require_direction(settings, "source.axis", spec.axis);
+  }
+  if (settings.has("source.along")) {
+    spec.along = vector("source.along");
+    require_direction(settings, "source.along", spec.along);
+    constexpr double least_sine = 1e-6;
+    if (!(spec.along.normalized().cross(spec.axis.normalized()).norm() > least_sine))
+      throw settings.error("source.along", "is no direction in the rectangle's plane",
+                           "it is that of source.axis, the rectangle's normal",
+                           "[1, 0, 0] under an axis along z");
   }
   return spec;
 }

@@ -105,7 +105,7 @@ double light_error_rel(const Scene& scene, const TailoringTask& task, const Prof
   options.pointwise_tolerance_w_per_mm2 = 1e-4 * peak;
   options.most_rays = 4096;  // twenty times what a mirror without folds takes; of others a rough idea will do
   options.most_meetings = 65536;
-  const sim::PointSource source(scene.source.position_mm, scene.source.power_w, far_exponent(scene.source),
+  const sim::PointSource source(scene.source.position_mm, scene.source.power_w, *far_exponent(scene.source),
                                 scene.source.axis);
   const sim::FieldPlane plane{task.layout.field_z_mm, scene.near_field.normal().z() > 0};
   const sim::TubesField field = sim::tubes_field(source, profile, scene.mirror, plane, radii, options);

@@ -29,7 +29,12 @@ void check_symmetry(const Scene& scene, double apex_side) {
   if (std::hypot(source.x(), source.y()) > Tolerance::for_scale(reach_mm).length_mm)
     refuse(scene, "source.position", "a tailored start needs the source on the axis",
            "its flux balance counts rings about the z axis", "start = \"profile\"");
-  if (make_source(scene.source)->tilt_rad() > Tolerance::for_scale(1).angle_rad)
+  if (!far_exponent(scene.source))
+    refuse(scene, "source.kind",
+           "a tailored start needs light like a power of the cosine, or the same in all directions",
+           "its flux balance knows no other", "start = \"profile\", or a disc or sphere in its place");
+  if (const auto source = make_source(scene.source);
+      !source->is_round() || source->tilt_rad() > Tolerance::for_scale(1).angle_rad)
     refuse(scene, "source.axis", "a tailored start needs a source that shines alike round the axis",
            "its flux balance counts rings about the z axis", "start = \"profile\"");
   for (const optim::Variable& variable : scene.variables)
@@ -65,7 +70,7 @@ class Maker {
     check_symmetry(scene, apex_side);
     layout_ = {scene.source.position_mm.z(), scene.near_field.center_mm().z(), apex_side};
     flux_ =
-        polar_flux(scene.source.power_w, far_exponent(scene.source), scene.source.axis.z() * apex_side > 0);
+        polar_flux(scene.source.power_w, *far_exponent(scene.source), scene.source.axis.z() * apex_side > 0);
     const std::shared_ptr<sim::Source> source = make_source(scene.source);
     direct_ = [source, z_mm = layout_.field_z_mm, normal = scene.near_field.normal()](double radius_mm) {
       return source->unhindered_w_per_mm2({radius_mm, 0, z_mm}, normal);

@@ -41,7 +41,7 @@ Target from_radius(const Scene& scene) {
 std::function<double(double)> direct_light(const Scene& scene) {
   const std::shared_ptr<const sim::Source> source = make_source(scene.source);
   const Vector3 position_mm = source->position_mm();
-  if (position_mm.x() != 0 || position_mm.y() != 0 || source->tilt_rad() != 0)
+  if (position_mm.x() != 0 || position_mm.y() != 0 || source->tilt_rad() != 0 || !source->is_round())
     return [](double) { return 0.0; };
   return
       [source, z_mm = scene.near_field.center_mm().z(), normal = scene.near_field.normal()](double radius) {

@@ -8,11 +8,14 @@
 #include "base/random_stream.h"
 #include "base/units.h"
 #include "cad/engines.h"
+#include "sim/cylinder_source.h"
 #include "sim/disc_source.h"
 #include "sim/planner.h"
 #include "sim/projection_map.h"
+#include "sim/rectangle_source.h"
 #include "sim/rings.h"
 #include "sim/simulation.h"
+#include "sim/sphere_source.h"
 #include "support/analytic_reflectors.h"
 
 using namespace catoptric;
@@ -67,6 +70,33 @@ TEST_CASE("no lit way from any point of a source to the mirror is left out") {
       const Vector3 from = disc.emit(disc.all_directions(), {0.5, 0.5, first, second}).origin_mm;
       if ((target - from).normalized().dot(axis) > 1e-6) REQUIRE(of_disc.contains(target - from));
       if ((target - place.at).normalized().dot(axis) > 1e-6) REQUIRE(of_point.contains(target - place.at));
+    }
+  }
+}
+
+TEST_CASE("no lit way from any point of a sphere, cylinder or rectangle to the mirror is left out") {
+  const auto profile = Profile::bezier({{5, 100, 1}, {50, 100, 1.4}, {100, 50, 1}});
+  for (const Place& place : all_places) {
+    const LambertianSphere sphere(place.at, 6, 1);
+    const LambertianCylinder cylinder(place.at, place.axis, 2, 15, 1);
+    const LambertianRectangle rectangle(place.at, place.axis, {0.3, 0.4, 0.5}, 14, 3, 1);
+    for (const Source* source : std::initializer_list<const Source*>{&sphere, &cylinder, &rectangle}) {
+      const ProjectionMap map = source->directions_to(profile), all = source->all_directions();
+      CHECK(source->power_into_w(map) <= 1 + 1e-12);
+      for (std::uint64_t i = 0; i < 4'000; ++i) {
+        RandomStream stream(4, Purpose::test, i);
+        const MeridianPoint on = profile.at(stream.uniform());
+        const double azimuth = 2 * pi * stream.uniform();
+        const Vector3 target(on.r_mm * std::cos(azimuth), on.r_mm * std::sin(azimuth), on.z_mm);
+        std::array<double, 4> numbers;
+        for (double& number : numbers) number = stream.uniform();
+        const Ray ray = source->emit(all, numbers);
+        const Vector3 way = (target - ray.origin_mm).normalized();
+        // Only a sphere's normal is known here; the others' directions are those of their law.
+        const bool lit = source->intensity_w_per_sr(way) > 1e-6 &&
+                         (source != &sphere || way.dot(ray.origin_mm - place.at) > 1e-6);
+        if (lit) REQUIRE(map.contains(way));
+      }
     }
   }
 }

@@ -28,6 +28,27 @@ TEST_CASE("a source's keys make the source, in mm") {
   CHECK(make_source(scene_of("").source)->intensity_w_per_sr({1, 0, 0}) == 2 / (4 * pi));
 }
 
+TEST_CASE("surfaces are made from their keys, and written back as they are") {
+  for (const char* text : {"kind = \"rectangle\"\nwidth = 0.4\nheight = 0.2\nalong = [0, 1, 0]",
+                           "kind = \"sphere\"\nradius = 0.2",
+                           "kind = \"cylinder\"\nradius = 0.1\nlength = 0.8\naxis = [1, 0, 0]"}) {
+    const Scene scene = scene_of(text);
+    CHECK(scene_text(make_scene(Settings::parse(scene_text(scene), "test.toml", scene_keys()))) ==
+          scene_text(scene));
+  }
+  const auto extent = [](const char* text) { return make_source(scene_of(text).source)->extent_mm(); };
+  CHECK(extent("kind = \"rectangle\"\nwidth = 0.6\nheight = 0.8") == Approx(5));
+  CHECK(extent("kind = \"sphere\"\nradius = 0.2") == 2);
+  CHECK(extent("kind = \"cylinder\"\nradius = 0.3\nlength = 0.8") == Approx(5));
+  CHECK_THROWS_WITH(scene_of("kind = \"sphere\"\nradius = 1\naxis = [0, 0, 1]"),
+                    Catch::Contains("source.axis"));
+  CHECK_THROWS_WITH(scene_of("kind = \"cylinder\"\nradius = 1"), Catch::Contains("source.length"));
+  CHECK_THROWS_WITH(scene_of("kind = \"rectangle\"\nwidth = 1\nheight = 1\nradius = 1"),
+                    Catch::Contains("source.radius"));
+  CHECK_THROWS_WITH(scene_of("kind = \"rectangle\"\nwidth = 1\nheight = 1\nalong = [0, 0, 1]"),
+                    Catch::Contains("source.along"));
+}
+
 TEST_CASE("keys that do not belong to the source are refused") {
   CHECK_THROWS_WITH(scene_of("radius = 1"), Catch::Contains("source.radius"));
   CHECK_THROWS_WITH(scene_of("axis = [0, 0, 1]"), Catch::Contains("source.axis"));
