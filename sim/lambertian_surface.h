@@ -8,7 +8,7 @@ namespace catoptric::sim {
 
 /// A surface that radiates by Lambert's law, everywhere alike. It stands in no light's way: a mirror's light
 /// passes through it as if it were not there.
-class LambertianSurface : public Source {
+class LambertianSurface : public MappedSource {
  public:
   double power_w() const override { return power_w_; }
   Vector3 position_mm() const override { return center_mm_; }

@@ -6,13 +6,14 @@
 #include "base/random_stream.h"
 #include "base/vector_clones.h"
 #include "sim/plane_tracer.h"
+#include "sim/projection_map.h"
 #include "sim/side_by_side.h"
 
 namespace catoptric::sim {
 
 struct PlaneFlights::Parts {
   PlaneScene scene;
-  ProjectionMap map;
+  std::unique_ptr<const Emission> emission;
 };
 
 namespace {
@@ -69,7 +70,7 @@ bool PlaneFlights::possible(const Scene& scene) {
 
 PlaneFlights::PlaneFlights(const Scene& scene, double reach_mm) {
   const double out_mm = scene.near_field.material() ? scene.near_field.half_width_mm() : reach_mm;
-  parts_.reset(new Parts{PlaneScene(scene, {NearField::Shape::disc, out_mm, out_mm}), emission_map(scene)});
+  parts_.reset(new Parts{PlaneScene(scene, {NearField::Shape::disc, out_mm, out_mm}), emission_of(scene)});
 }
 PlaneFlights::~PlaneFlights() = default;
 
@@ -85,7 +86,7 @@ FlightTotals PlaneFlights::fly(const PhotonOptions& options, bool front, const T
     std::array<double, photons_of_a_chunk> numbers, cosines;
     const auto row = [count](auto& array) { return std::span(array.data(), count); };
     FirstNumbers(options, key, first).draw(first, row(numbers));
-    parts_->map.cosines(row(numbers), row(cosines));
+    parts_->emission->directions()->cosines(row(numbers), row(cosines));
     PlaneTracer tracer(parts_->scene, options.most_interactions, key);
     tracer.trace(first, {row(cosines), row(ones), row(zeros)});
     counts.add(tracer.counts());
@@ -95,8 +96,7 @@ FlightTotals PlaneFlights::fly(const PhotonOptions& options, bool front, const T
       if (crossing.from_front() == front) squares.push_back(crossing.plane_mm().squaredNorm());
     take(i, squares);
   });
-  return counts.totals(photons, parts_->scene.scene.source.power_into_w(parts_->map),
-                       parts_->scene.scene.mirror);
+  return counts.totals(photons, parts_->emission->power_w(), parts_->scene.scene.mirror);
 }
 
 }  // namespace catoptric::sim

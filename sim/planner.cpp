@@ -12,7 +12,6 @@
 #include "sim/clear_view.h"
 #include "sim/opening.h"
 #include "sim/plane_flights.h"
-#include "sim/projection_map.h"
 #include "sim/rings.h"
 #include "sim/tracer.h"
 #include "sim/tubes.h"
@@ -120,9 +119,8 @@ class Description {
   }
 
   void directions() {
-    const ProjectionMap map = emission_map(scene_);
     const double power_w = scene_.source.power_w();
-    const double share = power_w > 0 ? scene_.source.power_into_w(map) / power_w : 0;
+    const double share = power_w > 0 ? emission_of(scene_)->power_w() / power_w : 0;
     add("emission", fmt::format("{:.3g} of the light goes where the mirror may be met", share),
         "photons are sent nowhere else");
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "base/errors.h"
 #include "base/float_traps.h"
@@ -10,6 +11,32 @@
 #include "sim/projection_map.h"
 
 namespace catoptric::sim {
+namespace {
+
+class MapEmission final : public Emission {
+ public:
+  MapEmission(const MappedSource& source, ProjectionMap map)
+      : source_(source), map_(std::move(map)), power_w_(source.power_into_w(map_)) {}
+  double power_w() const override { return power_w_; }
+  std::size_t numbers() const override { return source_.emission_numbers(); }
+  Ray emit(const std::array<double, 4>& numbers) const override { return source_.emit(map_, numbers); }
+  const ProjectionMap* directions() const override { return source_.extent_mm() == 0 ? &map_ : nullptr; }
+
+ private:
+  const MappedSource& source_;
+  ProjectionMap map_;
+  double power_w_;
+};
+
+}  // namespace
+
+std::unique_ptr<Emission> MappedSource::emission_to(const Profile& mirror) const {
+  return std::make_unique<MapEmission>(*this, directions_to(mirror));
+}
+
+std::unique_ptr<Emission> MappedSource::emission() const {
+  return std::make_unique<MapEmission>(*this, all_directions());
+}
 
 void check_source(const Vector3& position_mm, double power_w, const Vector3& axis) {
   const UntrappedFloats untrapped;  // NaN is one of the things refused

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 
 #include "base/ray.h"
@@ -14,8 +15,30 @@ namespace catoptric::sim {
 
 class ProjectionMap;
 
-/// A light source. All photons of one source carry the same power, so that a photon map needs no power per
-/// photon: a source that is brighter in some directions sends more photons there.
+/// Photons of a source on their way to what they are sent to. All of them carry the same power, so that a
+/// photon map needs no power per photon: where a source is brighter, more photons come from.
+class Emission {
+ public:
+  virtual ~Emission() = default;
+
+  /// The part of the source's power that goes there. Photons share it equally.
+  /// @from  Jensen & Christensen 1995; paper section 4.4
+  virtual double power_w() const = 0;
+
+  /// How many numbers `emit` uses: the first so many of four.
+  virtual std::size_t numbers() const { return 4; }
+
+  /// One photon's path.
+  /// @in    numbers: uniform in [0, 1)
+  /// @out   a continuous function of the numbers as far as the source allows, so that low-discrepancy points
+  ///        keep their quality
+  virtual Ray emit(const std::array<double, 4>& numbers) const = 0;
+
+  /// Of a point source that follows a law of the cosine: its directions, which are all there is to tell.
+  virtual const ProjectionMap* directions() const { return nullptr; }
+};
+
+/// A light source.
 class Source {
  public:
   virtual ~Source() = default;
@@ -40,23 +63,9 @@ class Source {
   virtual std::string words() const = 0;
   virtual std::string left_out() const = 0;
 
-  /// The directions photons are sent to: those in which a mirror may be met, or all that the source lights.
-  virtual ProjectionMap directions_to(const Profile& mirror) const = 0;
-  virtual ProjectionMap all_directions() const = 0;
-
-  /// The part of the power that goes into the directions of `map`. Photons share it equally.
-  /// @in    a map of this source
-  /// @from  Jensen & Christensen 1995; paper section 4.4
-  virtual double power_into_w(const ProjectionMap& map) const = 0;
-
-  /// How many numbers `emit` uses: the first so many of four.
-  virtual std::size_t emission_numbers() const { return 4; }
-
-  /// One photon's path from the source into the directions of `map`.
-  /// @in    numbers: uniform in [0, 1); a map of this source
-  /// @out   a continuous function of the numbers as far as the map allows, so that low-discrepancy points
-  ///        keep their quality
-  virtual Ray emit(const ProjectionMap& map, const std::array<double, 4>& numbers) const = 0;
+  /// Photons to where a mirror may be met, or to all that the source lights. The source must outlive them.
+  virtual std::unique_ptr<Emission> emission_to(const Profile& mirror) const = 0;
+  virtual std::unique_ptr<Emission> emission() const = 0;
 
   /// Irradiance straight from the source on a surface element with nothing in the way, W/mm^2; 0 behind the
   /// element and in its own plane.
@@ -67,12 +76,33 @@ class Source {
                                   double lift_mm) const = 0;
 };
 
+/// A source whose every place shines by one law of the cosine to one axis, so that directions can be drawn
+/// before places.
+class MappedSource : public Source {
+ public:
+  std::unique_ptr<Emission> emission_to(const Profile& mirror) const final;
+  std::unique_ptr<Emission> emission() const final;
+
+  /// The directions photons are sent to: those in which a mirror may be met, or all that the source lights.
+  virtual ProjectionMap directions_to(const Profile& mirror) const = 0;
+  virtual ProjectionMap all_directions() const = 0;
+
+  /// The part of the power that goes into the directions of `map`.
+  /// @in    a map of this source
+  virtual double power_into_w(const ProjectionMap& map) const = 0;
+
+  virtual std::size_t emission_numbers() const { return 4; }
+
+  /// One photon's path into the directions of `map`: two numbers for the direction, two for the place.
+  virtual Ray emit(const ProjectionMap& map, const std::array<double, 4>& numbers) const = 0;
+};
+
 /// Above it a beam is narrower than 2 degrees and its cosine's power leaves the range of numbers.
 inline constexpr double greatest_exponent = 1000;
 
 /// A point that radiates the same in all directions, or with the intensity I0 cos^n about an axis and nothing
 /// behind, where I0 = power (n + 1) / (2 pi).
-class PointSource final : public Source {
+class PointSource final : public MappedSource {
  public:
   /// @in    exponent 0: the same in all directions, without an axis
   /// @fails InputError for a position that is not finite, a power that is negative or not finite, an exponent

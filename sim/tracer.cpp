@@ -32,7 +32,7 @@ struct ChunkResult {
 struct Flight {
   const Scene& scene;
   const PhotonOptions& options;
-  const ProjectionMap& map;
+  const Emission& emission;
   const RecordedArea& area;
   const std::optional<Opening>& opening;
   std::uint64_t key;
@@ -97,7 +97,7 @@ class PhotonTracer {
   }
 
   void emit(std::uint64_t first, std::uint64_t last) {
-    const std::size_t rows = flight_.scene.source.emission_numbers();
+    const std::size_t rows = flight_.emission.numbers();
     std::array<std::vector<double>, most_emission_numbers> numbers;
     std::array<std::span<double>, most_emission_numbers> spans;
     for (std::size_t row = 0; row < rows; ++row) {
@@ -109,7 +109,7 @@ class PhotonTracer {
     for (std::uint64_t photon = first; photon < last; ++photon) {
       std::array<double, most_emission_numbers> own{};
       for (std::size_t row = 0; row < rows; ++row) own[row] = numbers[row][photon - first];
-      photons_.emplace_back(photon, flight_.scene.source.emit(flight_.map, own), flight_.key);
+      photons_.emplace_back(photon, flight_.emission.emit(own), flight_.key);
     }
   }
 
@@ -227,20 +227,20 @@ void give_up_if_stopped(const PhotonOptions& options) {
   if (options.stop && options.stop->load(std::memory_order_relaxed)) throw Interrupted();
 }
 
-ProjectionMap emission_map(const Scene& scene) {
+std::unique_ptr<const Emission> emission_of(const Scene& scene) {
   if (auto defect = find_defect(scene.mirror)) {
     defect->where = "mirror";
     throw InputError(std::move(*defect));
   }
   const auto& material = scene.near_field.material();
-  if (material && material->reflectance > 0) return scene.source.all_directions();
-  return scene.source.directions_to(scene.reflector.profile());
+  if (material && material->reflectance > 0) return scene.source.emission();
+  return scene.source.emission_to(scene.reflector.profile());
 }
 
 struct PhotonFlights::Parts {
   Scene scene;
   RecordedArea area;
-  ProjectionMap map;
+  std::unique_ptr<const Emission> emission;
   std::optional<Opening> opening;
   double lift_mm;
   std::optional<PlaneScene> plane;  ///< where no photon leaves its meridian plane
@@ -248,7 +248,7 @@ struct PhotonFlights::Parts {
   ChunkResult trace(const PhotonOptions& options, std::uint64_t key, std::uint64_t first,
                     std::uint64_t last) const {
     if (plane) return trace_in_plane(options, key, first, static_cast<std::size_t>(last - first));
-    return PhotonTracer({scene, options, map, area, opening, key, lift_mm}).trace(first, last);
+    return PhotonTracer({scene, options, *emission, area, opening, key, lift_mm}).trace(first, last);
   }
 
   ChunkResult trace_in_plane(const PhotonOptions& options, std::uint64_t key, std::uint64_t first,
@@ -256,7 +256,7 @@ struct PhotonFlights::Parts {
     std::array<double, photons_of_a_chunk> polar, azimuth, cosine, azimuth_cosine, azimuth_sine;
     const auto row = [count](auto& array) { return std::span(array.data(), count); };
     EmissionNumbers(options.sampler, key).draw(first, std::array{row(polar), row(azimuth)});
-    map.cosines(row(polar), row(cosine));
+    emission->directions()->cosines(row(polar), row(cosine));
     cosines_and_sines(row(azimuth), row(azimuth_cosine), row(azimuth_sine));
     PlaneTracer tracer(*plane, options.most_interactions, key);
     tracer.trace(first, {row(cosine), row(azimuth_cosine), row(azimuth_sine)});
@@ -267,7 +267,7 @@ struct PhotonFlights::Parts {
 PhotonFlights::PhotonFlights(const Scene& scene, const RecordedArea& area, FlightSpace space)
     : parts_(new Parts{scene,
                        area,
-                       emission_map(scene),
+                       emission_of(scene),
                        Opening::of(scene.reflector.profile()),
                        Tolerance::for_scale(scene.reflector.profile().diagonal_mm()).lift_mm,
                        {}}) {
@@ -291,9 +291,7 @@ FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossing
 }
 
 double PhotonFlights::photon_power_w(std::uint64_t photons) const {
-  return SharedCounts()
-      .totals(photons, parts_->scene.source.power_into_w(parts_->map), parts_->scene.mirror)
-      .photon_power_w;
+  return SharedCounts().totals(photons, parts_->emission->power_w(), parts_->scene.mirror).photon_power_w;
 }
 
 FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossings& take,
@@ -318,7 +316,7 @@ FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossing
     begin = end;
   } while (begin < chunks(photons));
 
-  return counts.totals(photons, parts_->scene.source.power_into_w(parts_->map), parts_->scene.mirror);
+  return counts.totals(photons, parts_->emission->power_w(), parts_->scene.mirror);
 }
 
 StoredChunk store(std::span<const Crossing> crossings, const RecordedArea& area) {

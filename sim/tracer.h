@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "sim/emission.h"
-#include "sim/projection_map.h"
 #include "sim/recorded_area.h"
 #include "sim/scene.h"
 #include "sim/stored_photons.h"
@@ -27,7 +26,7 @@ struct PhotonOptions {
 /// Where the emitted power went. Photons are counted as whole numbers, so the parts add up to emitted_w
 /// within some roundings.
 struct EnergyLedger {
-  double emitted_w = 0;   ///< into the projection map
+  double emitted_w = 0;   ///< to where the mirror may be met
   double missed_w = 0;    ///< met no mirror: left, or ended on the near field's own surface untouched
   double absorbed_w = 0;  ///< in the mirror
   double received_w = 0;  ///< absorbed by the near field after touching the mirror, or crossed the invisible
@@ -98,7 +97,7 @@ void give_up_if_stopped(const PhotonOptions& options);
 /// Where photons are sent: a real near field that reflects may light the mirror from anywhere; else only the
 /// mirror's own directions matter (transmission goes straight on, so it needs no others).
 /// @fails InputError for a bad mirror material
-ProjectionMap emission_map(const Scene& scene);
+std::unique_ptr<const Emission> emission_of(const Scene& scene);
 
 /// What is known of a set of photons after their flight, without the crossings.
 struct FlightTotals {

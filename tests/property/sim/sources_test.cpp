@@ -80,7 +80,8 @@ TEST_CASE("no lit way from any point of a sphere, cylinder or rectangle to the m
     const LambertianSphere sphere(place.at, 6, 1);
     const LambertianCylinder cylinder(place.at, place.axis, 2, 15, 1);
     const LambertianRectangle rectangle(place.at, place.axis, {0.3, 0.4, 0.5}, 14, 3, 1);
-    for (const Source* source : std::initializer_list<const Source*>{&sphere, &cylinder, &rectangle}) {
+    for (const MappedSource* source :
+         std::initializer_list<const MappedSource*>{&sphere, &cylinder, &rectangle}) {
       const ProjectionMap map = source->directions_to(profile), all = source->all_directions();
       CHECK(source->power_into_w(map) <= 1 + 1e-12);
       for (std::uint64_t i = 0; i < 4'000; ++i) {

@@ -60,7 +60,7 @@ std::vector<double> shares(const ProjectionMap& map, const LightCells& cells) {
   return share;
 }
 
-double fit(const Source& source, const ProjectionMap& map, const LightCells& cells,
+double fit(const MappedSource& source, const ProjectionMap& map, const LightCells& cells,
            const std::vector<double>& share) {
   constexpr int draws = 100'000;
   double inside = 0;
@@ -151,7 +151,7 @@ TEST_CASE("a disc emits evenly from its area and by Lambert's law into its own s
 namespace {
 
 /// A disc that sends its photons everywhere it shines.
-class Careless final : public Source {
+class Careless final : public MappedSource {
  public:
   explicit Careless(const LambertianDisc& disc) : disc_(disc) {}
   double power_w() const override { return disc_.power_w(); }

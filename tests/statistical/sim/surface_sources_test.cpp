@@ -35,7 +35,7 @@ std::size_t bin(double share) {
 
 /// p-value of place and direction together, which for Lambert's law are even in the square of the cosine.
 double even_p(
-    const Source& source, const ChartOf& chart_of,
+    const MappedSource& source, const ChartOf& chart_of,
     const std::function<double(double)>& share = [](double cosine) { return cosine * cosine; }) {
   const ProjectionMap all = source.all_directions();
   std::vector<double> counts(bins * bins * bins, 0);
@@ -52,7 +52,7 @@ double even_p(
   return test::chi_square_even_p(counts);
 }
 
-void check(const Source& source, const ChartOf& chart_of) {
+void check(const MappedSource& source, const ChartOf& chart_of) {
   CAPTURE(source.words());
   CHECK(source.power_into_w(source.all_directions()) == Approx(source.power_w()).epsilon(1e-14));
   CHECK(test::plausible(even_p(source, chart_of)));
