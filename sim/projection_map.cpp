@@ -338,4 +338,24 @@ bool ProjectionMap::contains(const Vector3& direction) const {
   });
 }
 
+bool ProjectionMap::touches(const Vector3& direction, double half_angle_rad) const {
+  constexpr double slack_rad = 1e-9;
+  const double half = half_angle_rad + slack_rad;
+  const Vector3 local = frame_.transpose() * direction.normalized();
+  const double polar = std::atan2(std::hypot(local.x(), local.y()), local.z());
+  double azimuth = std::atan2(local.y(), local.x());
+  if (azimuth < 0) azimuth += 2 * pi;
+  const double high = polar > half ? std::cos(polar - half) : 1,
+               low = polar < pi - half ? std::cos(polar + half) : -1;
+  const bool round_pole = polar <= half || polar >= pi - half;
+  const double spread = round_pole ? pi : std::asin(std::min(1.0, std::sin(half) / std::sin(polar)));
+  return std::any_of(bands_.begin(), bands_.end(), [&](const Band& band) {
+    return band.low <= high && band.high >= low &&
+           std::any_of(band.arcs.begin(), band.arcs.end(), [&](const Arc& arc) {
+             const double off = std::remainder(azimuth - (arc.first_rad + 0.5 * arc.length_rad), 2 * pi);
+             return std::abs(off) <= 0.5 * arc.length_rad + spread;
+           });
+  });
+}
+
 }  // namespace catoptric::sim

@@ -69,6 +69,10 @@ class ProjectionMap {
   /// Whether the direction belongs to the map, borders included.
   bool contains(const Vector3& direction) const;
 
+  /// Whether any direction of the map may lie within an angle of this one: never false where one does.
+  /// @in    half_angle_rad below pi / 2
+  bool touches(const Vector3& direction, double half_angle_rad) const;
+
  private:
   struct Arc {
     double first_rad, length_rad;

@@ -1,0 +1,77 @@
+#include "sim/intensity_source.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <utility>
+
+#include "base/errors.h"
+#include "base/units.h"
+#include "sim/frame.h"
+#include "sim/intensity_emission.h"
+
+namespace catoptric::sim {
+namespace {
+
+constexpr double degrees = 180 / pi;
+
+}  // namespace
+
+IntensitySource::IntensitySource(const Vector3& position_mm, double power_w,
+                                 std::shared_ptr<const IntensityTable> table, const Vector3& axis,
+                                 const Vector3& along)
+    : position_mm_(position_mm), power_w_(power_w), table_(std::move(table)) {
+  check_source(position_mm, power_w, axis);
+  const double flux = table_->flux();
+  if (!(flux > 0))
+    throw InputError(
+        {"the table of intensities is dark", "source", "a source shines somewhere", "another file"});
+  w_per_unit_ = power_w / flux;
+  frame_ = frame_about(unit_axis(axis));
+  const Vector3 up = frame_.col(2), across = along - along.dot(up) * up;
+  constexpr double least = 1e-9;  // rad between the two directions
+  if (across.norm() > least * along.norm()) {
+    frame_.col(0) = across.normalized();
+    frame_.col(1) = up.cross(frame_.col(0));
+  } else if (!table_->is_rotational()) {
+    throw InputError({"the direction of C = 0 is none across the axis", "source",
+                      "it must not be zero or along the axis", "[1, 0, 0] for an axis along z"});
+  }
+}
+
+double IntensitySource::intensity_w_per_sr(const Vector3& direction) const {
+  const Vector3 local = frame_.transpose() * direction;
+  const double gamma = std::atan2(std::hypot(local.x(), local.y()), local.z());
+  return w_per_unit_ * table_->at(gamma * degrees, std::atan2(local.y(), local.x()) * degrees);
+}
+
+std::string IntensitySource::words() const {
+  return fmt::format("a point with a table of {} intensities, {}", table_->values().size(),
+                     table_->is_rotational() ? "alike round its axis" : "by gamma and C");
+}
+
+std::unique_ptr<Emission> IntensitySource::emission_to(const Profile& mirror) const {
+  const ProjectionMap towards = ProjectionMap::towards(mirror, position_mm_);
+  return std::make_unique<IntensityEmission>(position_mm_, frame_, *table_, &towards, power_w_);
+}
+
+std::unique_ptr<Emission> IntensitySource::emission() const {
+  return std::make_unique<IntensityEmission>(position_mm_, frame_, *table_, nullptr, power_w_);
+}
+
+double IntensitySource::unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const {
+  const Vector3 way = position_mm_ - point_mm;
+  const double height_mm = way.dot(normal);
+  if (!(height_mm > 0)) return 0;
+  const double distance_mm = way.norm();
+  return intensity_w_per_sr(-way / distance_mm) * (height_mm / distance_mm) / distance_mm / distance_mm;
+}
+
+double IntensitySource::direct_w_per_mm2(const Vector3& point_mm, const Vector3& normal, Probe& mirror,
+                                         double lift_mm) const {
+  const double unhindered = unhindered_w_per_mm2(point_mm, normal);
+  return unhindered > 0 && mirror.blocks(position_mm_, point_mm, lift_mm) ? 0 : unhindered;
+}
+
+}  // namespace catoptric::sim
