@@ -11,6 +11,7 @@
 #include "design/variables.h"
 #include "sim/cylinder_source.h"
 #include "sim/disc_source.h"
+#include "sim/intensity_source.h"
 #include "sim/rectangle_source.h"
 #include "sim/sphere_source.h"
 
@@ -67,6 +68,8 @@ std::unique_ptr<sim::Source> make_source(const SourceSpec& spec) {
     case SourceKind::cylinder:
       return std::make_unique<sim::LambertianCylinder>(at_mm, spec.axis, spec.radius_mm, spec.length_mm,
                                                        spec.power_w);
+    case SourceKind::intensity:
+      return std::make_unique<sim::IntensitySource>(at_mm, spec.power_w, spec.table, spec.axis, spec.along);
     case SourceKind::point:
       break;
   }
@@ -81,6 +84,7 @@ std::optional<double> far_exponent(const SourceSpec& spec) {
     case SourceKind::sphere:
       return 0;
     case SourceKind::cylinder:
+    case SourceKind::intensity:
       return std::nullopt;
     case SourceKind::point:
       break;

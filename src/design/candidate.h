@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/intensity_table.h"
 #include "base/profile.h"
 #include "base/units.h"
 #include "design/curvature_profile.h"
@@ -18,7 +19,7 @@
 
 namespace catoptric::design {
 
-enum class SourceKind { point, disc, rectangle, sphere, cylinder };
+enum class SourceKind { point, disc, rectangle, sphere, cylinder, intensity };
 
 struct SourceSpec {
   Vector3 position_mm;
@@ -36,7 +37,7 @@ struct SourceSpec {
 std::unique_ptr<sim::Source> make_source(const SourceSpec& spec);
 
 /// The exponent of its intensity's cosine from afar: what is flat is Lambert's, 0 is alike in all directions;
-/// nothing for a cylinder, which follows a sine.
+/// nothing for a cylinder, which follows a sine, and a table.
 std::optional<double> far_exponent(const SourceSpec& spec);
 
 /// What a design vector decides: the mirror's shape, and the source and the mirror's surface it is judged

@@ -70,6 +70,12 @@ void Settings::set(const Override& change) {
   settings_.insert_or_assign(change.path, checked(key, change.path, *table.get("value"), change.where));
 }
 
+void Settings::make_absolute(const std::string& path) {
+  if (text(path)->empty()) throw error(path, "is empty", "it names a file", "leave it out, or name one");
+  const auto absolute = std::filesystem::absolute(folder() / *text(path)).lexically_normal();
+  set({path, quoted(absolute.string()), where(path)});
+}
+
 void Settings::remove(std::string_view path) {
   if (const auto found = settings_.find(path); found != settings_.end()) settings_.erase(found);
 }

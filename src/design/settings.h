@@ -47,6 +47,11 @@ class Settings {
     if (!has(path)) set({path, value, "default"});
   }
 
+  /// Completes the name of a file, so that scene.toml may lie elsewhere.
+  /// @in    a key that is set and names a file, in the scene's folder unless it says another
+  /// @fails InputError when it is empty
+  void make_absolute(const std::string& path);
+
   /// Takes a key away; nothing happens when it is not there.
   void remove(std::string_view path);
 

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "photometry/intensity_file.h"
 
 namespace catoptric::design {
 namespace {
@@ -14,15 +17,9 @@ void refuse(const Settings& settings, const char* path, const char* why) {
   if (settings.has(path)) throw settings.error(path, "does not belong to this source", why, "remove it");
 }
 
-void settings_default(Settings& settings, const char* path, const char* text) {
-  if (!settings.has(path)) settings.set({path, text, "default"});
-}
-
-const std::map<std::string, SourceKind> kinds{{"point", SourceKind::point},
-                                              {"disc", SourceKind::disc},
-                                              {"rectangle", SourceKind::rectangle},
-                                              {"sphere", SourceKind::sphere},
-                                              {"cylinder", SourceKind::cylinder}};
+const std::map<std::string, SourceKind> kinds{
+    {"point", SourceKind::point},   {"disc", SourceKind::disc},         {"rectangle", SourceKind::rectangle},
+    {"sphere", SourceKind::sphere}, {"cylinder", SourceKind::cylinder}, {"intensity", SourceKind::intensity}};
 
 /// A key that belongs to some kinds alone.
 struct OwnKey {
@@ -40,7 +37,8 @@ const OwnKey own_keys[] = {
     {"source.length", {"cylinder"}, "only a cylinder has one", true},
     {"source.width", {"rectangle"}, "only a rectangle has one", true},
     {"source.height", {"rectangle"}, "only a rectangle has one", true},
-    {"source.along", {"rectangle"}, "only a rectangle's width has a direction", false},
+    {"source.along", {"rectangle", "intensity"}, "light that is alike round its axis has no other", false},
+    {"source.file", {"intensity"}, "only a measured intensity is in a file", true},
 };
 
 }  // namespace
@@ -54,18 +52,19 @@ void complete_source(Settings& settings) {
     if (!owned) refuse(settings, key.path, key.why_not);
     if (owned && key.is_needed && !settings.has(key.path))
       throw settings.error(key.path, "is missing", fmt::format("a {} needs it", kind),
-                           fmt::format("{} = 5", key.path));
+                           fmt::format("{} = {}", key.path, kind == "intensity" ? "\"lamp.ies\"" : "5"));
   }
+  if (kind == "intensity") settings.make_absolute("source.file");
   const bool point = kind == "point";
-  if (point) settings_default(settings, "source.exponent", "0.0");
-  if (kind == "rectangle") settings_default(settings, "source.along", "[1.0, 0.0, 0.0]");
+  if (point) settings.fill("source.exponent", "0.0");
+  if (kind == "rectangle" || kind == "intensity") settings.fill("source.along", "[1.0, 0.0, 0.0]");
   const bool even = kind == "sphere" || (point && !(*settings.number("source.exponent") > 0) &&
                                          !settings.has("variables.source.exponent.step"));
   if (even)
     refuse(settings, "source.axis",
            point ? "with exponent 0 light is the same in all directions" : "a sphere has none");
   else
-    settings_default(settings, "source.axis", "[0.0, 0.0, 1.0]");
+    settings.fill("source.axis", "[0.0, 0.0, 1.0]");
 }
 
 SourceSpec source_spec(const Settings& settings, double unit_mm) {
@@ -90,10 +89,12 @@ SourceSpec source_spec(const Settings& settings, double unit_mm) {
     require_direction(settings, "source.along", spec.along);
     constexpr double least_sine = 1e-6;
     if (!(spec.along.normalized().cross(spec.axis.normalized()).norm() > least_sine))
-      throw settings.error("source.along", "is no direction in the rectangle's plane",
-                           "it is that of source.axis, the rectangle's normal",
-                           "[1, 0, 0] under an axis along z");
+      throw settings.error("source.along", "is no direction across the source's axis",
+                           "it is that of source.axis", "[1, 0, 0] under an axis along z");
   }
+  if (spec.kind == SourceKind::intensity)
+    spec.table = std::make_shared<const IntensityTable>(
+        photometry::read_intensity(*settings.text("source.file")).table);
   return spec;
 }
 

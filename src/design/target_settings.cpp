@@ -130,14 +130,6 @@ void read_radial_table(const Settings& settings, double unit_mm, TargetSpec& spe
   check_range(table, spec.table_weights, 0, greatest_weight_of_a_place, "weight", file);
 }
 
-/// So that scene.toml may lie elsewhere.
-void make_absolute(Settings& settings, const std::string& key) {
-  if (settings.text(key)->empty())
-    throw settings.error(key, "is empty", "it names a file", "leave it out, or name one");
-  const auto absolute = std::filesystem::absolute(settings.folder() / *settings.text(key)).lexically_normal();
-  settings.set({key, quoted(absolute.string()), settings.where(key)});
-}
-
 /// Plane angles beyond it lie too far out on the far plane.
 constexpr double greatest_angle_deg = 85;
 
@@ -164,7 +156,7 @@ void read_intensities(const Settings& settings, TargetSpec& spec) {
 
 void complete_target(Settings& settings) {
   if (settings.has("target.intensity_file")) {
-    make_absolute(settings, "target.intensity_file");
+    settings.make_absolute("target.intensity_file");
     settings.fill("target.intensity_resolution", "2.0");
   } else if (settings.has("target.intensity_resolution")) {
     throw settings.error("target.intensity_resolution", "stands alone", "no intensity is wanted",
@@ -176,7 +168,7 @@ void complete_target(Settings& settings) {
   if (kind == "gaussian") complete_gaussian(settings);
   if (kind == "csv" || kind == "radial") {
     settings.fill("target.column", "\"irradiance\"");
-    make_absolute(settings, "target.file");
+    settings.make_absolute("target.file");
   }
 }
 

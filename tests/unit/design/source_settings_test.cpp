@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "design/run.h"
+#include "support/temporary_folder.h"
 
 using namespace catoptric;
 using namespace catoptric::design;
@@ -47,6 +48,25 @@ TEST_CASE("surfaces are made from their keys, and written back as they are") {
                     Catch::Contains("source.radius"));
   CHECK_THROWS_WITH(scene_of("kind = \"rectangle\"\nwidth = 1\nheight = 1\nalong = [0, 0, 1]"),
                     Catch::Contains("source.along"));
+}
+
+TEST_CASE("a photometric file makes the source, and its name is kept whole") {
+  const test::TemporaryFolder folder;
+  test::write_whole(folder / "beam.ies",
+                    "IES:LM-63-2019\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 5\n0 45 90\n0\n100 50 0\n");
+  const std::string file = (folder / "beam.ies").string();
+  const Scene scene = scene_of("kind = \"intensity\"\nfile = \"" + file + "\"\naxis = [0, 0, -1]");
+  const auto source = make_source(scene.source);
+  CHECK(source->power_w() == 2);
+  CHECK(source->intensity_w_per_sr({0, 0, 1}) == 0);
+  CHECK(source->intensity_w_per_sr({0, 0, -1}) ==
+        Approx(2 * source->intensity_w_per_sr({std::sqrt(0.5), 0, -std::sqrt(0.5)})));
+  const std::string text = scene_text(scene);
+  CHECK_THAT(text, Catch::Contains(file));
+  CHECK(scene_text(make_scene(Settings::parse(text, "elsewhere/test.toml", scene_keys()))) == text);
+  CHECK_THROWS_WITH(scene_of("kind = \"intensity\""), Catch::Contains("source.file"));
+  CHECK_THROWS_WITH(scene_of("kind = \"intensity\"\nfile = \"none.ies\""), Catch::Contains("none.ies"));
+  CHECK_THROWS_WITH(scene_of("file = \"beam.ies\""), Catch::Contains("source.file"));
 }
 
 TEST_CASE("keys that do not belong to the source are refused") {
