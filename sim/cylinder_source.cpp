@@ -13,14 +13,17 @@
 namespace catoptric::sim {
 namespace {
 
-/// Integral of 1 / (a^2 + h^2)^2 over h.
-double squares(double a, double h) {
-  const double q = a * a + h * h;
-  return (h / q + std::atan(h / a) / a) / (2 * a * a);
+/// Integrals over h from `low` to `high` of 1 / (a^2 + h^2)^2 and of h / (a^2 + h^2)^2. Differences of near
+/// numbers are multiplied out: from afar a short cylinder is a small step of h.
+struct LineIntegrals {
+  double square, risen;
+};
+LineIntegrals between(double a, double low, double high) {
+  const double q_low = a * a + low * low, q_high = a * a + high * high, step = high - low;
+  const double angle = std::atan2(step * a, a * a + low * high);  // under which the line is seen
+  return {(step * (a * a - low * high) / q_low / q_high + angle / a) / (2 * a * a),
+          0.5 * step * (high + low) / q_low / q_high};
 }
-
-/// Integral of h / (a^2 + h^2)^2 over h.
-double risen(double a, double h) { return -0.5 / (a * a + h * h); }
 
 }  // namespace
 
@@ -92,7 +95,8 @@ double LambertianCylinder::unhindered_w_per_mm2(const Vector3& point_mm, const V
     if (n_z > 0) low = std::max(low, -base / n_z);
     if (n_z < 0) high = std::min(high, -base / n_z);
     if (!(low < high) || (n_z == 0 && !(base > 0))) return 0.0;
-    return out * (base * (squares(a, high) - squares(a, low)) + n_z * (risen(a, high) - risen(a, low)));
+    const LineIntegrals of_line = between(a, low, high);
+    return out * (base * of_line.square + n_z * of_line.risen);
   };
   // The lines that are seen, parted where the element's plane begins to cut them or lets go of them.
   const double last = std::acos(1 / d);

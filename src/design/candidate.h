@@ -30,7 +30,8 @@ struct SourceSpec {
   double radius_mm = 0;                ///< of disc, sphere and cylinder
   double length_mm = 0;                ///< of a cylinder
   double width_mm = 0, height_mm = 0;  ///< of a rectangle
-  Vector3 along = Vector3::UnitX();    ///< direction of its width
+  Vector3 along = Vector3::UnitX();    ///< direction of its width; of C = 0
+  std::shared_ptr<const IntensityTable> table = nullptr;  ///< of a point with measured intensity
 };
 
 /// The source as the light room has it.

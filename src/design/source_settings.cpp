@@ -17,18 +17,18 @@ void refuse(const Settings& settings, const char* path, const char* why) {
   if (settings.has(path)) throw settings.error(path, "does not belong to this source", why, "remove it");
 }
 
-const std::map<std::string, SourceKind> kinds{
+const std::map<std::string, SourceKind> source_kinds{
     {"point", SourceKind::point},   {"disc", SourceKind::disc},         {"rectangle", SourceKind::rectangle},
     {"sphere", SourceKind::sphere}, {"cylinder", SourceKind::cylinder}, {"intensity", SourceKind::intensity}};
 
 /// A key that belongs to some kinds alone.
-struct OwnKey {
+struct SourceKey {
   const char* path;
   std::vector<std::string> kinds;
   const char* why_not;
   bool is_needed;
 };
-const OwnKey own_keys[] = {
+const SourceKey source_keys[] = {
     {"source.exponent", {"point"}, "a surface radiates by Lambert's law", false},
     {"source.radius",
      {"disc", "sphere", "cylinder"},
@@ -47,7 +47,7 @@ void complete_source(Settings& settings) {
   if (!settings.has("source.power"))
     throw settings.error("source.power", "is missing", "a source needs its power in W", "source.power = 1.0");
   const std::string kind = *settings.text("source.kind");
-  for (const OwnKey& key : own_keys) {
+  for (const SourceKey& key : source_keys) {
     const bool owned = std::ranges::find(key.kinds, kind) != key.kinds.end();
     if (!owned) refuse(settings, key.path, key.why_not);
     if (owned && key.is_needed && !settings.has(key.path))
@@ -74,7 +74,7 @@ SourceSpec source_spec(const Settings& settings, double unit_mm) {
   };
   const auto length = [&](const char* path) { return settings.number(path).value_or(0) * unit_mm; };
   SourceSpec spec{unit_mm * vector("source.position"), *settings.number("source.power")};
-  spec.kind = kinds.at(*settings.text("source.kind"));
+  spec.kind = source_kinds.at(*settings.text("source.kind"));
   spec.exponent = settings.number("source.exponent").value_or(0);
   spec.radius_mm = length("source.radius");
   spec.length_mm = length("source.length");

@@ -33,8 +33,8 @@ void check_symmetry(const Scene& scene, double apex_side) {
     refuse(scene, "source.kind",
            "a tailored start needs light like a power of the cosine, or the same in all directions",
            "its flux balance knows no other", "start = \"profile\", or a disc or sphere in its place");
-  if (const auto source = make_source(scene.source);
-      !source->is_round() || source->tilt_rad() > Tolerance::for_scale(1).angle_rad)
+  if (const auto shining = make_source(scene.source);
+      !shining->is_round() || shining->tilt_rad() > Tolerance::for_scale(1).angle_rad)
     refuse(scene, "source.axis", "a tailored start needs a source that shines alike round the axis",
            "its flux balance counts rings about the z axis", "start = \"profile\"");
   for (const optim::Variable& variable : scene.variables)
