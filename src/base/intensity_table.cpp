@@ -64,14 +64,6 @@ double zone_integral(double a, double b, double first, double last) {
 
 }  // namespace
 
-std::string_view intensity_unit(LightQuantity quantity) {
-  return quantity == LightQuantity::luminous ? "cd" : "W/sr";
-}
-
-std::string_view flux_unit(LightQuantity quantity) {
-  return quantity == LightQuantity::luminous ? "lm" : "W";
-}
-
 IntensityTable::IntensityTable(LightQuantity quantity, std::vector<double> gamma_deg,
                                std::vector<double> c_deg, std::vector<double> values)
     : quantity_(quantity),

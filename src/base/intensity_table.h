@@ -1,21 +1,14 @@
 #pragma once
 
 #include <cstddef>
-#include <string_view>
 #include <vector>
+
+#include "base/light_units.h"
 
 namespace catoptric {
 
-/// What is measured: light as eyes see it (cd, lm) or power (W/sr, W). One is never taken for the other.
-enum class LightQuantity { luminous, radiant };
-
 /// Angles of a table that are nearer to each other than this are one.
 inline constexpr double least_angle_step_deg = 1e-9;
-
-/// "cd" or "W/sr".
-std::string_view intensity_unit(LightQuantity quantity);
-/// "lm" or "W".
-std::string_view flux_unit(LightQuantity quantity);
 
 /// Intensity in type C coordinates: gamma is the angle to the luminaire's first axis (its nadir), C the angle
 /// about it. Between the angles it is bilinear in both; beyond the range of gamma it is dark.

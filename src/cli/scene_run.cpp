@@ -30,7 +30,7 @@ void tell_memory(const design::Scene& scene) {
 SceneRun::SceneRun(const CommonOptions& options)
     : scene(design::read_scene(options.input, options.overrides())),
       out(prepared_folder(options, scene)),
-      line(options.quiet, design::unit(scene.search.metric)),
+      line(options.quiet, design::objective_unit(scene)),
       control{&stop_on_signal(), [this](const design::Progress& progress) { line.show(progress); }},
       limit_(scene.threads) {
   if (!options.quiet) tell_memory(scene);

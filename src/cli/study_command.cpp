@@ -84,7 +84,7 @@ ExitCode study_command(const CommonOptions& options) {
   prepare_output_folder(out, room);
 
   const auto begin = std::chrono::steady_clock::now();
-  ProgressLine line(options.quiet, design::unit(scenes.front().search.metric));
+  ProgressLine line(options.quiet, design::objective_unit(scenes.front()));
   const design::RunControl control{&stop_on_signal(), [&](const design::Progress& p) { line.show(p); }};
   std::vector<report::StudyRow> rows;
   rows.reserve(list.runs.size());  // a row stays where it is while its files are written

@@ -18,11 +18,12 @@
 namespace catoptric::design {
 namespace {
 
-constexpr std::array<std::pair<SceneVariable, std::string_view>, 6> names{
+constexpr std::array<std::pair<SceneVariable, std::string_view>, 7> names{
     {{SceneVariable::source_x, "source.x"},
      {SceneVariable::source_y, "source.y"},
      {SceneVariable::source_z, "source.z"},
      {SceneVariable::source_power, "source.power"},
+     {SceneVariable::source_flux, "source.flux"},
      {SceneVariable::source_exponent, "source.exponent"},
      {SceneVariable::reflectance, "reflector.reflectance"}}};
 
@@ -37,6 +38,7 @@ auto& number_of(AnyCandidate& candidate, SceneVariable variable) {
     case SceneVariable::source_z:
       return candidate.source.position_mm[2];
     case SceneVariable::source_power:
+    case SceneVariable::source_flux:
       return candidate.source.power_w;
     case SceneVariable::source_exponent:
       return candidate.source.exponent;
@@ -121,6 +123,7 @@ std::string variables_rule(const Candidate& base) {
 std::string unit_of_variable(std::string_view name, LengthUnit unit) {
   const auto beside = parse_scene_variable(name);
   if (beside == SceneVariable::source_power) return "W";
+  if (beside == SceneVariable::source_flux) return "lm";
   if (name.starts_with("angle")) return "rad";
   if (name.starts_with("kappa")) return "1/" + std::string(symbol(unit));
   const bool length = beside ? is_length(*beside) : name.front() != 'w' && !name.starts_with("logw");
@@ -133,7 +136,11 @@ double scene_value(const Candidate& candidate, SceneVariable variable, LengthUni
 
 std::optional<std::string> value_defect(const Candidate& base, SceneVariable variable, double value) {
   if (!std::isfinite(value)) return "it is a finite number";
-  if (variable == SceneVariable::source_power && !(value > 0)) return "a source's power is positive";
+  if (variable == SceneVariable::source_power || variable == SceneVariable::source_flux) {
+    if ((variable == SceneVariable::source_flux) != (base.source.quantity == LightQuantity::luminous))
+      return fmt::format("the source's light is in {}", flux_unit(base.source.quantity));
+    if (!(value > 0)) return "a source's power is positive";
+  }
   if (variable == SceneVariable::source_exponent) {
     if (base.source.kind != SourceKind::point) return "only a point source has an exponent";
     // Exponent 0 is another law, with light behind too, which no small exponent comes near.

@@ -23,7 +23,7 @@ enum class SourceKind { point, disc, rectangle, sphere, cylinder, intensity };
 
 struct SourceSpec {
   Vector3 position_mm;
-  double power_w;
+  double power_w;  ///< of a luminous source lm: all that is named by W is lm then, and W/mm^2 is lm/mm^2
   SourceKind kind = SourceKind::point;
   double exponent = 0;                 ///< of a point
   Vector3 axis = Vector3::UnitZ();     ///< of a point's intensity, of a cylinder; normal of what is flat
@@ -32,6 +32,7 @@ struct SourceSpec {
   double width_mm = 0, height_mm = 0;  ///< of a rectangle
   Vector3 along = Vector3::UnitX();    ///< direction of its width; of C = 0
   std::shared_ptr<const IntensityTable> table = nullptr;  ///< of a point with measured intensity
+  LightQuantity quantity = LightQuantity::radiant;
 };
 
 /// The source as the light room has it.
@@ -50,7 +51,15 @@ struct Candidate {
 };
 
 /// A variable beside the shape.
-enum class SceneVariable { source_x, source_y, source_z, source_power, source_exponent, reflectance };
+enum class SceneVariable {
+  source_x,
+  source_y,
+  source_z,
+  source_power,
+  source_flux,
+  source_exponent,
+  reflectance
+};
 
 /// "source.z" -> source_z; nothing for other names.
 std::optional<SceneVariable> parse_scene_variable(std::string_view name);

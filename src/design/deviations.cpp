@@ -102,10 +102,11 @@ Deviation reflectance(const Scene& scene, const Profile& profile) {
 }
 
 Deviation power(const Scene& scene, const Profile& profile) {
-  return {"source power",
-          "source_power",
-          "W",
-          "the source's radiant power",
+  const bool luminous = scene.source.quantity == LightQuantity::luminous;
+  return {luminous ? "source flux" : "source power",
+          luminous ? "source_flux" : "source_power",
+          std::string(flux_unit(scene.source.quantity)),
+          luminous ? "the source's luminous flux" : "the source's radiant power",
           first_guess_rel * scene.source.power_w,
           -0.99 * scene.source.power_w,  // a source without power is none
           scene.source.power_w,

@@ -177,8 +177,8 @@ void require_seen_light(const Scene& scene, const Judgement& judgement) {
   throw scene.settings.error(
       scene.model.estimate.neighbours ? "model.neighbours" : "model.kernel_radius",
       "no sample sees any of the light that arrives",
-      fmt::format("the near field receives {:.3g} W, and none of its photons lies in a sample's kernel",
-                  received),
+      fmt::format("the near field receives {:.3g} {}, and none of its photons lies in a sample's kernel",
+                  received, flux_unit(scene.source.quantity)),
       "a wider kernel, more photons, or more samples");
 }
 

@@ -128,6 +128,8 @@ std::string rule(const Key& key) {
   if (key.greatest != unbounded && key.greatest != farthest) text += fmt::format(" and <= {}", key.greatest);
   if (key.quantity == Quantity::length) text += ", in the scene's unit of length";
   if (key.quantity == Quantity::power_w) text += ", in W";
+  if (key.quantity == Quantity::flux_lm) text += ", in lm";
+  if (key.quantity == Quantity::irradiance) text += ", in W/m^2, or lx with source.flux";
   return text;
 }
 

@@ -12,7 +12,7 @@ namespace catoptric::design {
 enum class KeyType { text, choice, integer, number, boolean, numbers, points, texts };
 
 /// How the number is to be read: lengths are in the scene's unit.
-enum class Quantity { none, length, power_w };
+enum class Quantity { none, length, power_w, flux_lm, irradiance };
 
 /// Greatest length a scene may name, in its own unit: wide enough for 1 um parts in metres and 100 km fields
 /// in mm.
@@ -20,7 +20,7 @@ inline constexpr double farthest = 1e12;
 /// Least size it may name: a millionth of what makes sense, while squares and cubes keep all their digits.
 inline constexpr double nearest = 1e-12;
 
-/// Greatest irradiance (W/m^2) or intensity (W/sr) that may be wanted, and weight of a place.
+/// Greatest irradiance (W/m^2, lx) or intensity (W/sr, cd) that may be wanted, and weight of a place.
 inline constexpr double greatest_irradiance_w_per_m2 = 1e15, greatest_weight_of_a_place = 1e12;
 
 /// One key. The table of these validates files, fills in defaults, writes scenes out and makes the reference.

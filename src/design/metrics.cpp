@@ -80,9 +80,12 @@ std::string objective_name(Metric metric) {
   return (more_is_better(metric) ? "1 - " : "") + std::string(name(metric));
 }
 
-std::string unit(Metric metric) {
-  return metric == Metric::rmse ? "W/m^2" : metric == Metric::intensity_rmse ? "W/sr" : "";
+std::string unit(Metric metric, LightQuantity quantity) {
+  if (metric == Metric::rmse) return std::string(irradiance_unit(quantity));
+  return metric == Metric::intensity_rmse ? std::string(intensity_unit(quantity)) : "";
 }
+
+std::string objective_unit(const Scene& scene) { return unit(scene.search.metric, scene.source.quantity); }
 
 std::optional<double> metric_value(Metric metric, const Scene& scene, std::span<const double> total_w_per_mm2,
                                    const Target& target) {

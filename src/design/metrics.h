@@ -16,8 +16,10 @@ std::span<const Metric> all_metrics();
 bool more_is_better(Metric metric);
 /// What a search makes small, in words: the metric, or 1 less it where more is better.
 std::string objective_name(Metric metric);
-/// "W/m^2", or empty for a ratio.
-std::string unit(Metric metric);
+/// "W/m^2" or "lx", "W/sr" or "cd", or empty for a ratio.
+std::string unit(Metric metric, LightQuantity quantity);
+/// Of the metric that is searched.
+std::string objective_unit(const Scene& scene);
 
 /// A field's metric against the target, in its own unit.
 /// rmse, relative_rmse: eq. 7, each sample with its weight; with a free scale against the level that fits

@@ -41,11 +41,30 @@ const SourceKey source_keys[] = {
     {"source.file", {"intensity"}, "only a measured intensity is in a file", true},
 };
 
+/// The light of a file that says how much it is, unless the scene does.
+void fill_flux_of_file(Settings& settings) {
+  const IntensityTable table = photometry::read_intensity(*settings.text("source.file")).table;
+  if (settings.has("source.power") || settings.has("source.flux")) return;
+  settings.fill(power_key(table.quantity()), fmt::format("{}", table.flux()));
+}
+
+void require_one_power(const Settings& settings) {
+  if (settings.has("source.power") && settings.has("source.flux"))
+    throw settings.error("source.flux", "stands beside source.power",
+                         "a scene is in W or in lm, and none is turned into the other without a spectrum",
+                         "remove one of them");
+  if (!settings.has("source.power") && !settings.has("source.flux"))
+    throw settings.error("source.power", "is missing", "a source needs its power in W or its flux in lm",
+                         "source.power = 1.0, or source.flux = 1000.0");
+}
+
 }  // namespace
 
+const char* power_key(LightQuantity quantity) {
+  return quantity == LightQuantity::luminous ? "source.flux" : "source.power";
+}
+
 void complete_source(Settings& settings) {
-  if (!settings.has("source.power"))
-    throw settings.error("source.power", "is missing", "a source needs its power in W", "source.power = 1.0");
   const std::string kind = *settings.text("source.kind");
   for (const SourceKey& key : source_keys) {
     const bool owned = std::ranges::find(key.kinds, kind) != key.kinds.end();
@@ -54,7 +73,11 @@ void complete_source(Settings& settings) {
       throw settings.error(key.path, "is missing", fmt::format("a {} needs it", kind),
                            fmt::format("{} = {}", key.path, kind == "intensity" ? "\"lamp.ies\"" : "5"));
   }
-  if (kind == "intensity") settings.make_absolute("source.file");
+  if (kind == "intensity") {
+    settings.make_absolute("source.file");
+    fill_flux_of_file(settings);
+  }
+  require_one_power(settings);
   const bool point = kind == "point";
   if (point) settings.fill("source.exponent", "0.0");
   if (kind == "rectangle" || kind == "intensity") settings.fill("source.along", "[1.0, 0.0, 0.0]");
@@ -73,7 +96,10 @@ SourceSpec source_spec(const Settings& settings, double unit_mm) {
     return Vector3(v[0], v[1], v[2]);
   };
   const auto length = [&](const char* path) { return settings.number(path).value_or(0) * unit_mm; };
-  SourceSpec spec{unit_mm * vector("source.position"), *settings.number("source.power")};
+  const LightQuantity quantity =
+      settings.has("source.flux") ? LightQuantity::luminous : LightQuantity::radiant;
+  SourceSpec spec{unit_mm * vector("source.position"), *settings.number(power_key(quantity))};
+  spec.quantity = quantity;
   spec.kind = source_kinds.at(*settings.text("source.kind"));
   spec.exponent = settings.number("source.exponent").value_or(0);
   spec.radius_mm = length("source.radius");

@@ -9,6 +9,9 @@ namespace catoptric::design {
 /// @fails InputError for keys that do not belong to the source's kind, or are missing
 void complete_source(Settings& settings);
 
+/// The key that says how much light a source has: "source.power" or "source.flux".
+const char* power_key(LightQuantity quantity);
+
 /// The source of complete settings.
 /// @fails InputError for an axis without direction
 SourceSpec source_spec(const Settings& settings, double unit_mm);

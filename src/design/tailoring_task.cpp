@@ -8,6 +8,7 @@
 
 #include "base/tolerance.h"
 #include "base/units.h"
+#include "design/source_settings.h"
 #include "sim/source.h"
 
 namespace catoptric::design {
@@ -142,8 +143,9 @@ class Maker {
     const double relative = rms > 0 ? excess / rms : HUGE_VAL;
     if (relative <= worth_telling_rel) return relative;
     const std::string what = fmt::format(
-        "the source alone gives up to {:.4g} W/m^2 more than the target wants, at {:.4g} {} from the axis",
-        to_w_per_m2(worst), scene_.to_scene_unit(worst_mm), symbol(scene_.unit));
+        "the source alone gives up to {:.4g} {} more than the target wants, at {:.4g} {} from the axis",
+        to_w_per_m2(worst), irradiance_unit(scene_.source.quantity), scene_.to_scene_unit(worst_mm),
+        symbol(scene_.unit));
     const std::string why = fmt::format(
         "no mirror takes light away: the relative error cannot fall below {:.2g} %", 100 * relative);
     if (relative > most_unreachable_rel)
@@ -155,11 +157,12 @@ class Maker {
   void check_power(const FluxMap& map) const {
     const double most_w = map.available_w(pi);
     if (map.wanted_w() < most_w) return;
-    refuse(scene_, "source.power",
-           fmt::format("the target wants {:.4g} W from the mirror, which can have {:.4g} W at most",
-                       map.wanted_w(), most_w),
-           fmt::format("the source sends {:.4g} W in all directions, and the mirror reflects {:.4g} of it",
-                       scene_.source.power_w, scene_.mirror.reflectance),
+    const std::string_view unit = flux_unit(scene_.source.quantity);
+    refuse(scene_, power_key(scene_.source.quantity),
+           fmt::format("the target wants {:.4g} {} from the mirror, which can have {:.4g} {} at most",
+                       map.wanted_w(), unit, most_w, unit),
+           fmt::format("the source sends {:.4g} {} in all directions, and the mirror reflects {:.4g} of it",
+                       scene_.source.power_w, unit, scene_.mirror.reflectance),
            "want less light, a smaller field, or only the shape: target.scale = \"free\"");
   }
 

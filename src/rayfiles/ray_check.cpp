@@ -102,8 +102,8 @@ void compare_total(const RaySetHeader& header, RayCheck& check) {
   if (stated > 0) all.total_deviation_rel = (all.total_flux - stated) / stated;
   if (stated > 0 && std::abs(*all.total_deviation_rel) <= total_flux_tolerance) return;
   check.notes.push_back(fmt::format("the rays' fluxes add up to {:.6g} {}, the header says {:.6g} {}",
-                                    all.total_flux, symbol(header.quantity), stated,
-                                    symbol(header.quantity)));
+                                    all.total_flux, flux_unit(header.quantity), stated,
+                                    flux_unit(header.quantity)));
 }
 
 }  // namespace

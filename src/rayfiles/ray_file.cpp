@@ -27,13 +27,13 @@ std::string printable(std::string text) {
 }  // namespace
 
 std::shared_ptr<const RayFile> RayFile::open(const std::filesystem::path& file,
-                                             std::optional<FluxQuantity> wanted) {
+                                             std::optional<LightQuantity> wanted) {
   std::shared_ptr<RayFile> opened(new RayFile(file));
   opened->read_header(wanted);
   return opened;
 }
 
-void RayFile::read_header(std::optional<FluxQuantity> wanted) {
+void RayFile::read_header(std::optional<LightQuantity> wanted) {
   const UntrappedFloats absent_numbers_are_nan;
   header_.name = file_.name();
   const auto bytes = file_.bytes();
@@ -47,11 +47,11 @@ void RayFile::read_header(std::optional<FluxQuantity> wanted) {
   require_all_rays();
 }
 
-void RayFile::use(Tm25Reading reading, std::optional<FluxQuantity> wanted) {
+void RayFile::use(Tm25Reading reading, std::optional<LightQuantity> wanted) {
   const Tm25Header& header = reading.header;
   header_.quantity =
-      wanted.value_or(header.has_radiant_flux ? FluxQuantity::radiant : FluxQuantity::luminous);
-  const bool radiant = header_.quantity == FluxQuantity::radiant;
+      wanted.value_or(header.has_radiant_flux ? LightQuantity::radiant : LightQuantity::luminous);
+  const bool radiant = header_.quantity == LightQuantity::radiant;
   if (!(radiant ? header.has_radiant_flux : header.has_luminous_flux)) refuse_flux(*wanted);
   if (header.has_radiant_flux && header.has_luminous_flux)
     reading.notes.push_back(fmt::format("rays have a radiant and a luminous flux; the {} one is read",
@@ -69,9 +69,9 @@ void RayFile::use(Tm25Reading reading, std::optional<FluxQuantity> wanted) {
   file_header_ = std::move(reading.header);
 }
 
-void RayFile::use(ZemaxReading reading, std::optional<FluxQuantity> wanted) {
+void RayFile::use(ZemaxReading reading, std::optional<LightQuantity> wanted) {
   const ZemaxHeader& header = reading.header;
-  header_.quantity = header.flux == ZemaxFlux::watts ? FluxQuantity::radiant : FluxQuantity::luminous;
+  header_.quantity = header.flux == ZemaxFlux::watts ? LightQuantity::radiant : LightQuantity::luminous;
   if (wanted && *wanted != header_.quantity) refuse_flux(*wanted);
   header_.format = "Zemax binary";
   header_.title = printable(header.description);
@@ -102,8 +102,8 @@ void RayFile::require_all_rays() {
     header_.notes.push_back(fmt::format("{} bytes behind the last ray are ignored", more));
 }
 
-void RayFile::refuse_flux(FluxQuantity wanted) const {
-  const bool radiant = wanted == FluxQuantity::radiant;
+void RayFile::refuse_flux(LightQuantity wanted) const {
+  const bool radiant = wanted == LightQuantity::radiant;
   throw InputError({fmt::format("rays have no {} flux", radiant ? "radiant" : "luminous"), file_.name(),
                     fmt::format("they carry {} only", radiant ? "lumens" : "watts"),
                     "ask for the other one"});

@@ -30,7 +30,7 @@ class RayFile final : public RaySet {
   ///        rays than it says, or a wanted flux that is not there. Bytes behind the last ray are a note
   /// @cost  O(header): the size of the file does not matter
   static std::shared_ptr<const RayFile> open(const std::filesystem::path& file,
-                                             std::optional<FluxQuantity> wanted = {});
+                                             std::optional<LightQuantity> wanted = {});
 
   const RaySetHeader& header() const override { return header_; }
   SourceRay as_stored(std::uint64_t i) const override;
@@ -48,11 +48,11 @@ class RayFile final : public RaySet {
 
  private:
   explicit RayFile(const std::filesystem::path& file) : file_(file) {}
-  void read_header(std::optional<FluxQuantity> wanted);
-  void use(Tm25Reading reading, std::optional<FluxQuantity> wanted);
-  void use(ZemaxReading reading, std::optional<FluxQuantity> wanted);
+  void read_header(std::optional<LightQuantity> wanted);
+  void use(Tm25Reading reading, std::optional<LightQuantity> wanted);
+  void use(ZemaxReading reading, std::optional<LightQuantity> wanted);
   void require_all_rays();
-  [[noreturn]] void refuse_flux(FluxQuantity wanted) const;
+  [[noreturn]] void refuse_flux(LightQuantity wanted) const;
   [[noreturn]] void refuse_format() const;
   const std::byte* bytes_of(std::uint64_t i) const;
 

@@ -27,9 +27,9 @@ void RayFileWriter::find_fluxes() {
   const bool watts = !zemax || zemax->flux == ZemaxFlux::watts;
   for (std::size_t i = 0; i < columns_.size(); ++i)
     if (columns_[i] == (zemax ? "flux" : "phi"))
-      fluxes_.push_back({i, watts ? FluxQuantity::radiant : FluxQuantity::luminous, {}});
+      fluxes_.push_back({i, watts ? LightQuantity::radiant : LightQuantity::luminous, {}});
     else if (!zemax && columns_[i] == "Tri_Y")
-      fluxes_.push_back({i, FluxQuantity::luminous, {}});
+      fluxes_.push_back({i, LightQuantity::luminous, {}});
   if (fluxes_.empty())
     throw InputError(
         {"rays would have no flux", path_.string(), "radiant flux, luminous flux or both are written", ""});
@@ -63,7 +63,7 @@ void RayFileWriter::fill_in() {
   auto& tm25 = std::get<Tm25Header>(header_);
   tm25.ray_count = count_;
   for (const FluxColumn& flux : fluxes_) {
-    auto& total = flux.quantity == FluxQuantity::radiant ? tm25.radiant_flux : tm25.luminous_flux;
+    auto& total = flux.quantity == LightQuantity::radiant ? tm25.radiant_flux : tm25.luminous_flux;
     if (!total) total = static_cast<float>(flux.sum.value());
   }
 }

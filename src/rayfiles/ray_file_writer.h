@@ -40,7 +40,7 @@ class RayFileWriter {
   /// A column of fluxes, and their sum.
   struct FluxColumn {
     std::size_t column;
-    FluxQuantity quantity;
+    LightQuantity quantity;
     CompensatedSum sum;
   };
   void find_fluxes();

@@ -2,8 +2,6 @@
 
 namespace catoptric::rayfiles {
 
-std::string_view symbol(FluxQuantity quantity) { return quantity == FluxQuantity::radiant ? "W" : "lm"; }
-
 SourceRay RaySet::ray(std::uint64_t i) const {
   SourceRay ray = as_stored(i);
   const double length = ray.direction.norm();

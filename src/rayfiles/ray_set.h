@@ -3,25 +3,19 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "base/light_units.h"
 #include "base/ray.h"
 
 namespace catoptric::rayfiles {
-
-/// What a ray's flux is: W or lm.
-enum class FluxQuantity { radiant, luminous };
-
-/// "W" or "lm".
-std::string_view symbol(FluxQuantity quantity);
 
 /// What is known of a set of rays before any of them is read.
 struct RaySetHeader {
   std::string name;                     ///< of the file, for messages
   std::string format;                   ///< "IES TM-25-13", "Zemax binary"
   std::string title;                    ///< the light source, as the file calls it; UTF-8
-  FluxQuantity quantity{};              ///< of the fluxes that are read
+  LightQuantity quantity{};             ///< of the fluxes that are read
   std::optional<double> total_flux;     ///< W or lm as the file states it; the rays' sum may be another
   std::uint64_t count = 0;              ///< of rays, at least 1
   std::string length_unit = "mm";       ///< of the file; rays are given in mm

@@ -66,7 +66,7 @@ std::string generatrix_script(const GeneratrixFigure& figure);
 struct IrradianceFigure {
   std::string title;
   std::string length_unit;
-  std::string irradiance_unit = "W/m²";
+  std::string irradiance_name = "irradiance", irradiance_unit = "W/m²";
   GridField field;                        ///< gridded() makes one from samples
   std::optional<double> least, greatest;  ///< of the colour scale; set alike to compare two figures
   std::optional<double> disc_radius;      ///< draws the edge of a disc about (0, 0)
@@ -84,7 +84,7 @@ struct RadialCurve {
 struct RadialCutFigure {
   std::string title;
   std::string length_unit;
-  std::string irradiance_unit = "W/m²";
+  std::string irradiance_name = "irradiance", irradiance_unit = "W/m²";
   std::vector<RadialCurve> curves;
 };
 std::string radial_cut_script(const RadialCutFigure& figure);

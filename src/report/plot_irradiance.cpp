@@ -30,7 +30,7 @@ std::string axes(const IrradianceFigure& figure) {
   return fmt::format("set xlabel {}\nset ylabel {}\nset cblabel {}\n",
                      gnuplot_text(axis_label("x", figure.length_unit)),
                      gnuplot_text(axis_label("y", figure.length_unit)),
-                     gnuplot_text(axis_label("irradiance", figure.irradiance_unit))) +
+                     gnuplot_text(axis_label(figure.irradiance_name, figure.irradiance_unit))) +
          viridis_palette() +
          fmt::format("set cbrange [{}:{}]\n", plot_number(scale.least), plot_number(scale.greatest));
 }
@@ -80,7 +80,7 @@ std::string irradiance_surface_script(const IrradianceFigure& figure, const Surf
   script += axis_range('x', figure.field.x) + axis_range('y', figure.field.y);
   script += fmt::format("set zrange [{0}:{1}]\nset xyplane at {0}\nset zlabel {2} rotate parallel\n",
                         plot_number(scale.least), plot_number(scale.greatest),
-                        gnuplot_text(axis_label("irradiance", figure.irradiance_unit)));
+                        gnuplot_text(axis_label(figure.irradiance_name, figure.irradiance_unit)));
   script += surface_layout(view);
   script += grid_block("field", thinned(figure.field));
   return script + plot_command("splot", {"$field using 1:2:3 with pm3d"});

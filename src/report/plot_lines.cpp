@@ -39,7 +39,7 @@ void add_band(const RadialCurve& curve, std::size_t index, std::string& script,
 std::string radial_cut_script(const RadialCutFigure& figure) {
   std::string script =
       preamble(figure.title) + labels(axis_label("distance from the axis", figure.length_unit),
-                                      axis_label("irradiance", figure.irradiance_unit));
+                                      axis_label(figure.irradiance_name, figure.irradiance_unit));
   script += "set yrange [0:*]\nset autoscale xfix\nset key top right spacing 1.1\n";
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < figure.curves.size(); ++i) add_band(figure.curves[i], i, script, parts);

@@ -44,17 +44,17 @@ Json interval_json(const design::Figure& figure) {
   return {std::max(0.0, middle - *figure.half_interval), middle + *figure.half_interval};
 }
 
-std::string json_unit(design::Metric metric) {
-  const std::string unit = design::unit(metric);
+std::string json_unit(design::Metric metric, LightQuantity quantity) {
+  const std::string unit = design::unit(metric, quantity);
   return unit.empty() ? "1" : unit;
 }
 
 /// Every metric that has a value, whatever is searched.
-Json metrics_json(const design::Judgement& judgement) {
+Json metrics_json(const design::Judgement& judgement, LightQuantity quantity) {
   Json json = Json::object();
   for (const auto& [metric, figure] : judgement.metrics)
     json[std::string(name(metric))] = {{"value", figure.value},
-                                       {"unit", json_unit(metric)},
+                                       {"unit", json_unit(metric, quantity)},
                                        {"noise", figure.noise},
                                        {"bias", figure.bias},
                                        {"interval95", interval_json(figure)}};
@@ -79,7 +79,7 @@ Json objective_json(const design::Scene& scene, const design::Judgement& judgeme
   Json json = {{"metric", std::string(name(scene.search.metric))},
                {"value", judgement.objective.value},
                {"minimised", design::objective_name(scene.search.metric)},
-               {"unit", json_unit(scene.search.metric)},
+               {"unit", json_unit(scene.search.metric, scene.source.quantity)},
                {"noise", judgement.objective.noise},
                {"bias", judgement.objective.bias},
                {"interval95", interval_json(judgement.objective)},
@@ -90,6 +90,7 @@ Json objective_json(const design::Scene& scene, const design::Judgement& judgeme
   json["photons"] = judgement.photons;
   json["replicates"] = judgement.replicates;
   json["samples"] = judgement.reflected.size();
+  json["field_unit"] = irradiance_unit(scene.source.quantity);
   json["field_noise"] = to_w_per_m2(judgement.field_noise_w_per_mm2);
   json["field_bias"] = to_w_per_m2(judgement.field_bias_w_per_mm2);
   json["model"] = std::string(name(judgement.rung));
@@ -99,19 +100,15 @@ Json objective_json(const design::Scene& scene, const design::Judgement& judgeme
 Json judged_json(const design::Scene& scene, const design::Judged& judged) {
   return {{"variables", variables_json(judged)},
           {"objective", objective_json(scene, judged.judgement)},
-          {"metrics", metrics_json(judged.judgement)},
+          {"metrics", metrics_json(judged.judgement, scene.source.quantity)},
           {"constraints", constraints_json(scene, judged.constraints)}};
 }
 
 Json energy_json(const design::SourceSpec& source, const sim::EnergyLedger& energy) {
-  return {{"unit", "W"},
-          {"source", source.power_w},
-          {"towards_mirror", energy.emitted_w},
-          {"missed_mirror", energy.missed_w},
-          {"absorbed", energy.absorbed_w},
-          {"received", energy.received_w},
-          {"escaped", energy.escaped_w},
-          {"cut_off", energy.cut_off_w}};
+  return {{"unit", flux_unit(source.quantity)}, {"source", source.power_w},
+          {"towards_mirror", energy.emitted_w}, {"missed_mirror", energy.missed_w},
+          {"absorbed", energy.absorbed_w},      {"received", energy.received_w},
+          {"escaped", energy.escaped_w},        {"cut_off", energy.cut_off_w}};
 }
 
 Json reflector_json(const design::Scene& scene, const Profile& profile) {

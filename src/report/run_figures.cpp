@@ -19,9 +19,16 @@ constexpr int grid_cells = 120;         ///< across an irradiance map
 
 std::string unit_of(const design::Scene& scene) { return std::string(symbol(scene.unit)); }
 
+/// "Irradiance" or "Illuminance".
+std::string heading(const design::Scene& scene) {
+  std::string name(irradiance_name(scene.source.quantity));
+  name.front() = 'I';
+  return name;
+}
+
 std::string metric_label(const design::Scene& scene) {
-  return scene.search.metric == design::Metric::rmse ? "RMSE (W/m²)"
-                                                     : design::objective_name(scene.search.metric);
+  if (scene.search.metric != design::Metric::rmse) return design::objective_name(scene.search.metric);
+  return fmt::format("RMSE ({})", printed(design::objective_unit(scene)));
 }
 
 std::string variable_label(const design::Scene& scene, const std::string& name) {
@@ -125,9 +132,13 @@ std::vector<NamedFigure> irradiance_figures(const design::Scene& scene, const de
     disc = scene.to_scene_unit(scene.near_field.half_width_mm());
   std::vector<NamedFigure> figures;
   for (const FieldView& view : views) {
-    IrradianceFigure figure{view.title, unit_of(scene),
-                            "W/m²",     gridded(scattered(scene, target, view.w_per_mm2), grid_cells, disc),
-                            0.0,        {},
+    IrradianceFigure figure{view.title,
+                            unit_of(scene),
+                            std::string(irradiance_name(scene.source.quantity)),
+                            printed(irradiance_unit(scene.source.quantity)),
+                            gridded(scattered(scene, target, view.w_per_mm2), grid_cells, disc),
+                            0.0,
+                            {},
                             disc};
     const double greatest = view.shares_scale ? shared : greatest_of(view);
     if (greatest > 0) figure.greatest = greatest;
@@ -172,9 +183,11 @@ RadialCurve ring_means(const design::Scene& scene, const design::Target& target,
 
 NamedFigure radial_figure(const design::Scene& scene, const design::Target& target,
                           const design::Judgement& judgement) {
-  RadialCutFigure figure{"Irradiance by distance from the near field's centre (band: 2 sigma of a sample)",
+  const std::string name = heading(scene);
+  RadialCutFigure figure{name + " by distance from the near field's centre (band: 2 sigma of a sample)",
                          unit_of(scene),
-                         "W/m²",
+                         std::string(irradiance_name(scene.source.quantity)),
+                         printed(irradiance_unit(scene.source.quantity)),
                          {}};
   if (judgement.has_objective)
     figure.curves.push_back(
@@ -184,7 +197,7 @@ NamedFigure radial_figure(const design::Scene& scene, const design::Target& targ
       ring_means(scene, target, judgement.reflected, {}, "reflected", CurveRole::reflected));
   figure.curves.push_back(
       ring_means(scene, target, total(judgement), judgement.noise, "total", CurveRole::obtained));
-  return {"radial", "Irradiance by distance from the centre", radial_cut_script(figure)};
+  return {"radial", name + " by distance from the centre", radial_cut_script(figure)};
 }
 
 NamedFigure convergence_figure(const design::Scene& scene, const optim::Outcome& outcome) {
@@ -222,11 +235,12 @@ std::vector<NamedFigure> design_figures(const design::Scene& scene, const design
   figures.push_back(radial_figure(scene, result.target, result.best.judgement));
   if (result.search.value < design::infeasible_floor)
     figures.push_back(convergence_figure(scene, result.search));
-  for (NamedFigure& figure : irradiance_figures(
-           scene, result.target,
-           {{"result", "Irradiance of the result", total(result.best.judgement)},
-            {"target", "Target irradiance", result.target.irradiance_w_per_mm2},
-            {"start", "Irradiance of the start (its own scale)", total(result.start.judgement), false}}))
+  for (NamedFigure& figure :
+       irradiance_figures(scene, result.target,
+                          {{"result", heading(scene) + " of the result", total(result.best.judgement)},
+                           {"target", "Target", result.target.irradiance_w_per_mm2},
+                           {"start", heading(scene) + " of the start (its own scale)",
+                            total(result.start.judgement), false}}))
     figures.push_back(std::move(figure));
   return figures;
 }
@@ -239,9 +253,9 @@ std::vector<NamedFigure> simulation_figures(const design::Scene& scene,
            scene, result.mirror.source,
            {generatrix_curve(scene, result.mirror.profile, "mirror", CurveRole::obtained)}))}};
   figures.push_back(radial_figure(scene, result.target, result.mirror.judgement));
-  std::vector<FieldView> views{{"result", "Irradiance", total(result.mirror.judgement)}};
+  std::vector<FieldView> views{{"result", heading(scene), total(result.mirror.judgement)}};
   if (result.mirror.judgement.has_objective)
-    views.push_back({"target", "Target irradiance", result.target.irradiance_w_per_mm2});
+    views.push_back({"target", "Target", result.target.irradiance_w_per_mm2});
   for (NamedFigure& figure : irradiance_figures(scene, result.target, views))
     figures.push_back(std::move(figure));
   return figures;

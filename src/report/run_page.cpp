@@ -14,14 +14,16 @@ namespace {
 std::string length_unit(const design::Scene& scene) { return std::string(symbol(scene.unit)); }
 
 std::string objective_text(const design::Scene& scene, const design::Judgement& judgement) {
-  const char* unit = design::unit(scene.search.metric).empty() ? "" : " W/m²";
+  std::string unit = printed(design::objective_unit(scene));
+  if (!unit.empty()) unit.insert(0, " ");
   const design::Figure& figure = judgement.objective;
   return fmt::format("{:.5g}{} (noise ± {:.2g}, bias {:+.2g}{})", figure.value, unit, figure.noise,
                      figure.bias, unit);
 }
 
 std::string kernel_text(const design::Scene& scene, const design::Judgement& judgement) {
-  if (judgement.kernel_radius_mm == 0) return "none: the irradiance itself";
+  if (judgement.kernel_radius_mm == 0)
+    return fmt::format("none: the {} itself", irradiance_name(scene.source.quantity));
   const std::string radius =
       fmt::format("radius {:.4g} {}", scene.to_scene_unit(judgement.kernel_radius_mm), length_unit(scene));
   if (judgement.accuracy)
@@ -45,10 +47,11 @@ std::vector<Fact> measure_facts(const design::Scene& scene, const design::Judgem
   facts.emplace_back("Kernel", kernel_text(scene, judgement));
   facts.emplace_back(
       "Samples", fmt::format("{} over {:.4g} mm²", judgement.reflected.size(), scene.near_field.area_mm2()));
+  const std::string irradiance = printed(irradiance_unit(scene.source.quantity));
   facts.emplace_back("Noise of one evaluation, rms",
-                     fmt::format("{:.3g} W/m²", to_w_per_m2(judgement.field_noise_w_per_mm2)));
+                     fmt::format("{:.3g} {}", to_w_per_m2(judgement.field_noise_w_per_mm2), irradiance));
   facts.emplace_back("Kernel bias of the field, rms",
-                     fmt::format("{:.3g} W/m²", to_w_per_m2(judgement.field_bias_w_per_mm2)));
+                     fmt::format("{:.3g} {}", to_w_per_m2(judgement.field_bias_w_per_mm2), irradiance));
   return facts;
 }
 

@@ -11,8 +11,6 @@
 namespace catoptric::report {
 namespace {
 
-std::string objective_unit(const design::Scene& scene) { return design::unit(scene.search.metric); }
-
 /// The metrics besides the one that is searched.
 std::vector<design::MetricFigure> others(const design::Scene& scene, const design::Judgement& judgement) {
   std::vector<design::MetricFigure> list;
@@ -65,7 +63,7 @@ bool add_once(std::vector<std::string>& list, const std::string& name) {
 
 Table irradiance_table(const design::Scene& scene, const design::Target& target,
                        const design::Judgement& judgement) {
-  const std::string length(symbol(scene.unit)), irradiance = "W/m^2";
+  const std::string length(symbol(scene.unit)), irradiance(irradiance_unit(scene.source.quantity));
   Table table{{{"x", length},
                {"y", length},
                {"z", length},
@@ -108,7 +106,7 @@ Table convergence_table(const design::Scene& scene, const design::DesignResult& 
                {"evaluations", ""},
                {"step", ""},
                {"move", ""},
-               {"value", objective_unit(scene)}},
+               {"value", design::objective_unit(scene)}},
               {}};
   const std::vector<std::string>& names = result.best.names;
   for (const std::string& name : names)
@@ -130,7 +128,7 @@ Table landscape_table(const design::Scene& scene, const design::Landscape& lands
   Table table;
   for (const std::string& name : landscape.names)
     table.columns.push_back({name, design::unit_of_variable(name, scene.unit)});
-  table.columns.push_back({"value", objective_unit(scene)});
+  table.columns.push_back({"value", design::objective_unit(scene)});
   std::size_t next = 0;
   for (double a : landscape.axes[0]) {
     if (landscape.axes.size() == 1) {
@@ -146,7 +144,7 @@ Table paths_table(const design::Scene& scene, const design::Landscape& landscape
   Table table{{{"path", ""}}, {}};
   for (const std::string& name : landscape.names)
     table.columns.push_back({name, design::unit_of_variable(name, scene.unit)});
-  table.columns.push_back({"value", objective_unit(scene)});
+  table.columns.push_back({"value", design::objective_unit(scene)});
   for (const design::SearchPath& path : landscape.paths)
     for (std::size_t i = 0; i < path.points.size(); ++i) {
       std::vector<Cell> row{path.name};
@@ -165,13 +163,15 @@ Table summary_table(const design::Scene& scene, const design::DesignResult& resu
     table.rows.push_back({best.names[i], design::unit_of_variable(best.names[i], scene.unit),
                           alike ? Cell{start.variables[i]} : Cell{}, best.variables[i]});
   const design::Figure &before = result.start.judgement.objective, &after = result.best.judgement.objective;
-  const std::string metric = design::objective_name(scene.search.metric), unit = objective_unit(scene);
+  const std::string metric = design::objective_name(scene.search.metric),
+                    unit = design::objective_unit(scene);
   table.rows.push_back({metric, unit, before.value, after.value});
   table.rows.push_back({"  its noise (1 sigma)", unit, before.noise, after.noise});
   table.rows.push_back({"  its bias", unit, before.bias, after.bias});
   const auto first = others(scene, result.start.judgement), last = others(scene, result.best.judgement);
   for (std::size_t i = 0; i < std::min(first.size(), last.size()); ++i) {
-    const std::string other(name(last[i].metric)), other_unit = design::unit(last[i].metric);
+    const std::string other(name(last[i].metric)),
+        other_unit = design::unit(last[i].metric, scene.source.quantity);
     table.rows.push_back({other, other_unit, first[i].figure.value, last[i].figure.value});
     table.rows.push_back({"  its noise (1 sigma)", other_unit, first[i].figure.noise, last[i].figure.noise});
   }
@@ -189,33 +189,38 @@ Table simulation_table(const design::Scene& scene, const design::SimulationResul
     table.rows.push_back(
         {mirror.names[i], design::unit_of_variable(mirror.names[i], scene.unit), mirror.variables[i]});
   if (judgement.has_objective) {
-    const std::string metric = design::objective_name(scene.search.metric), unit = objective_unit(scene);
+    const std::string metric = design::objective_name(scene.search.metric),
+                      unit = design::objective_unit(scene);
     table.rows.push_back({metric, unit, judgement.objective.value});
     table.rows.push_back({"  its noise (1 sigma)", unit, judgement.objective.noise});
     table.rows.push_back({"  its bias", unit, judgement.objective.bias});
   }
   for (const auto& [metric, figure] : others(scene, judgement)) {
-    table.rows.push_back({std::string(name(metric)), design::unit(metric), figure.value});
-    table.rows.push_back({"  its noise (1 sigma)", design::unit(metric), figure.noise});
+    table.rows.push_back(
+        {std::string(name(metric)), design::unit(metric, scene.source.quantity), figure.value});
+    table.rows.push_back(
+        {"  its noise (1 sigma)", design::unit(metric, scene.source.quantity), figure.noise});
   }
   table.rows.push_back({"kernel radius, mean", std::string(symbol(scene.unit)),
                         scene.to_scene_unit(judgement.kernel_radius_mm)});
+  const std::string irradiance(irradiance_unit(scene.source.quantity));
   table.rows.push_back(
-      {"noise of one evaluation, rms", "W/m^2", to_w_per_m2(judgement.field_noise_w_per_mm2)});
+      {"noise of one evaluation, rms", irradiance, to_w_per_m2(judgement.field_noise_w_per_mm2)});
   table.rows.push_back(
-      {"kernel bias of the field, rms", "W/m^2", to_w_per_m2(judgement.field_bias_w_per_mm2)});
+      {"kernel bias of the field, rms", irradiance, to_w_per_m2(judgement.field_bias_w_per_mm2)});
   if (judgement.accuracy) {
     table.rows.push_back({"accuracy asked for, relative", "", judgement.accuracy->asked_rel});
     table.rows.push_back({"relative error, at most (95 %)", "", judgement.accuracy->error95_rel});
   }
   table.rows.push_back({"model", "", std::string(name(judgement.rung))});
-  table.rows.push_back({"source", "W", result.mirror.source.power_w});
+  const std::string flux(flux_unit(scene.source.quantity));
+  table.rows.push_back({"source", flux, result.mirror.source.power_w});
   if (judgement.rung == sim::Rung::tubes) return table;  // tubes keep no ledger
-  table.rows.push_back({"emitted towards the mirror", "W", judgement.energy.emitted_w});
-  table.rows.push_back({"  missed it", "W", judgement.energy.missed_w});
-  table.rows.push_back({"  absorbed by it", "W", judgement.energy.absorbed_w});
-  table.rows.push_back({"  received by the near field", "W", judgement.energy.received_w});
-  table.rows.push_back({"  escaped past the near field", "W", judgement.energy.escaped_w});
+  table.rows.push_back({"emitted towards the mirror", flux, judgement.energy.emitted_w});
+  table.rows.push_back({"  missed it", flux, judgement.energy.missed_w});
+  table.rows.push_back({"  absorbed by it", flux, judgement.energy.absorbed_w});
+  table.rows.push_back({"  received by the near field", flux, judgement.energy.received_w});
+  table.rows.push_back({"  escaped past the near field", flux, judgement.energy.escaped_w});
   return table;
 }
 
@@ -247,7 +252,7 @@ Table study_table(const std::vector<StudyRow>& rows) {
     if (!first && row.scene) first = &*row.scene;
   for (const std::string& name : names) {
     std::string unit;
-    if (first && (name == "rmse" || name == "noise" || name == "bias")) unit = objective_unit(*first);
+    if (first && (name == "rmse" || name == "noise" || name == "bias")) unit = design::objective_unit(*first);
     if (first && (name == "kernel_radius" || name[0] == 'r' || name[0] == 'z') && name != "rmse")
       unit = std::string(symbol(first->unit));
     if (name == "seconds") unit = "s";

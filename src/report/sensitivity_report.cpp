@@ -20,8 +20,9 @@ double share(const design::Sensitivity& sensitivity) {
   return 1 / std::sqrt(static_cast<double>(std::max<std::size_t>(1, sensitivity.budgeted())));
 }
 
-std::string derivative_unit(const design::Deviation& deviation) {
-  return deviation.unit.empty() ? "W/m^2" : "W/m^2 per " + deviation.unit;
+std::string derivative_unit(const design::Scene& scene, const design::Deviation& deviation) {
+  const std::string irradiance(irradiance_unit(scene.source.quantity));
+  return deviation.unit.empty() ? irradiance : irradiance + " per " + deviation.unit;
 }
 
 std::vector<double> scaled(const std::vector<double>& w_per_mm2, double factor) {
@@ -39,7 +40,9 @@ std::vector<double> radii(const design::Scene& scene, const design::Sensitivity&
 std::vector<NamedFigure> figures(const design::Scene& scene, const design::Sensitivity& sensitivity) {
   const std::vector<double> r = radii(scene, sensitivity);
   const std::string x_label = fmt::format("distance from the centre ({})", symbol(scene.unit));
-  LineFigure all{"Change of irradiance at each tolerance", x_label, "change (W/m²)", {}, {}};
+  const std::string name(irradiance_name(scene.source.quantity));
+  const std::string irradiance = printed(irradiance_unit(scene.source.quantity));
+  LineFigure all{"Change of " + name + " at each tolerance", x_label, "change (" + irradiance + ")", {}, {}};
   std::vector<NamedFigure> list;
   for (const design::ParameterSensitivity& each : sensitivity.parameters) {
     if (each.derivative_w_per_mm2.empty()) continue;
@@ -50,11 +53,11 @@ std::vector<NamedFigure> figures(const design::Scene& scene, const design::Sensi
     list.push_back({"derivative-" + each.deviation.key, "Derivative by " + each.deviation.name,
                     line_script({"Derivative by " + each.deviation.name,
                                  x_label,
-                                 unit.empty() ? "dE/dp (W/m²)" : fmt::format("dE/dp (W/m² per {})", unit),
+                                 fmt::format("dE/dp ({})", printed(derivative_unit(scene, each.deviation))),
                                  {{"dE/dp", r, scaled(each.derivative_w_per_mm2, 1), CurveRole::obtained}},
                                  {}})});
   }
-  list.insert(list.begin(), {"sensitivity", "What each deviation, at its tolerance, does to the irradiance",
+  list.insert(list.begin(), {"sensitivity", "What each deviation, at its tolerance, does to the " + name,
                              line_script(all)});
   return list;
 }
@@ -168,10 +171,12 @@ Table tolerance_table(const design::Sensitivity& sensitivity) {
 }
 
 Table derivative_table(const design::Scene& scene, const design::Sensitivity& sensitivity) {
-  Table table{{{"r", std::string(symbol(scene.unit))}, {"field", "W/m^2"}}, {}};
+  Table table{{{"r", std::string(symbol(scene.unit))},
+               {"field", std::string(irradiance_unit(scene.source.quantity))}},
+              {}};
   for (const auto& each : sensitivity.parameters) {
-    table.columns.push_back({each.deviation.key, derivative_unit(each.deviation)});
-    table.columns.push_back({each.deviation.key + "_noise", derivative_unit(each.deviation)});
+    table.columns.push_back({each.deviation.key, derivative_unit(scene, each.deviation)});
+    table.columns.push_back({each.deviation.key + "_noise", derivative_unit(scene, each.deviation)});
   }
   for (std::size_t i = 0; i < sensitivity.radii_mm.size(); ++i) {
     std::vector<Cell> row{scene.to_scene_unit(sensitivity.radii_mm[i]),
@@ -199,10 +204,11 @@ WrittenFiles write_sensitivity(const design::Scene& scene, const design::Sensiti
             {},
             fmt::format("catoptric {} · seed {} · run again with: catoptric sensitivity scene.toml",
                         version(), scene.seed)};
-  page.facts = {{"Allowed change of the field", fmt::format("{:.3g}", sensitivity.allowed_rel)},
-                {"Root mean square of the field",
-                 fmt::format("{:.5g} W/m²", to_w_per_m2(sensitivity.field_rms_w_per_mm2))},
-                {"Time", fmt::format("{:.1f} s, {} photons", sensitivity.seconds, sensitivity.photons)}};
+  page.facts = {
+      {"Allowed change of the field", fmt::format("{:.3g}", sensitivity.allowed_rel)},
+      {"Root mean square of the field", fmt::format("{:.5g} {}", to_w_per_m2(sensitivity.field_rms_w_per_mm2),
+                                                    printed(irradiance_unit(scene.source.quantity)))},
+      {"Time", fmt::format("{:.1f} s, {} photons", sensitivity.seconds, sensitivity.photons)}};
   PageSection tolerances{"Tolerances", remarks(sensitivity), {}, {{"", tolerance_table(sensitivity)}}, {}};
   for (const auto& each : sensitivity.parameters)
     tolerances.facts.emplace_back(each.deviation.name, each.deviation.meaning);

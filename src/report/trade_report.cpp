@@ -88,7 +88,7 @@ Json trade_json(const design::Scene& scene, const design::Tradeoff& trade) {
           {"sentence", trade.sentence},
           {"unit", std::string(symbol(scene.unit))},
           {"reference", {{"kind", trade.reference}, {"error", trade.reference_error_rel}}},
-          {"field_rms", {{"value", trade.rms_w_per_m2}, {"unit", "W/m^2"}}},
+          {"field_rms", {{"value", trade.rms_w_per_m2}, {"unit", irradiance_unit(scene.source.quantity)}}},
           {"choices", choices},
           {"pareto", front},
           {"settings", settings},
@@ -170,7 +170,7 @@ Table front_table(const design::Scene& scene, const design::Tradeoff& trade) {
                {"time", "ms", 3},
                {"relative error", "", 3},
                {"greatest of the seeds", "", 3},
-               {"error", "W/m^2", 3}},
+               {"error", std::string(irradiance_unit(scene.source.quantity)), 3}},
               {}};
   for (const design::TradeRow* row : front_of(trade))
     table.rows.push_back({design::words(scene, row->setting), 1e3 * row->seconds, row->error_rel,
@@ -194,7 +194,8 @@ WrittenFiles write_tradeoff(const design::Scene& scene, const design::Tradeoff& 
                         scene.seed)};
   page.facts = {
       {"Truth", fmt::format("{} (relative error {:.2g})", trade.reference, trade.reference_error_rel)},
-      {"Root mean square of the field", fmt::format("{:.5g} W/m²", trade.rms_w_per_m2)},
+      {"Root mean square of the field",
+       fmt::format("{:.5g} {}", trade.rms_w_per_m2, printed(irradiance_unit(scene.source.quantity)))},
       {"Machine", trade.machine},
       {"Settings", fmt::format("{} measured, {} left out", trade.rows.size(), trade.left_out.size())},
       {"Time", fmt::format("{:.1f} s", trade.seconds)}};

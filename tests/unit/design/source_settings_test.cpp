@@ -64,6 +64,11 @@ TEST_CASE("a photometric file makes the source, and its name is kept whole") {
   const std::string text = scene_text(scene);
   CHECK_THAT(text, Catch::Contains(file));
   CHECK(scene_text(make_scene(Settings::parse(text, "elsewhere/test.toml", scene_keys()))) == text);
+  const Scene own = make_scene(Settings::parse("source.kind = \"intensity\"\nsource.file = \"" + file +
+                                                   "\"\nreflector.points = [[0, 10], [5, 10], [10, 5]]\nnear_field.radius = 8\n",
+                                               "test.toml", scene_keys()));
+  CHECK(own.source.quantity == LightQuantity::luminous);
+  CHECK(own.source.power_w == Approx(own.source.table->flux()).epsilon(1e-15));
   CHECK_THROWS_WITH(scene_of("kind = \"intensity\""), Catch::Contains("source.file"));
   CHECK_THROWS_WITH(scene_of("kind = \"intensity\"\nfile = \"none.ies\""), Catch::Contains("none.ies"));
   CHECK_THROWS_WITH(scene_of("file = \"beam.ies\""), Catch::Contains("source.file"));
@@ -119,6 +124,8 @@ TEST_CASE("a family moves source and surface, and knows what is no source") {
   CHECK(moved->source.power_w == 7);
   CHECK_FALSE(family.at(std::vector<double>{0, 1, 1.1, 7}));
   CHECK_FALSE(family.at(std::vector<double>{0, 1, 1, 0}));
+  const SceneFamily luminous(scene.with(scene.profile), {"w1", "source.flux"}, LengthUnit::centimetre);
+  CHECK_FALSE(luminous.at(std::vector<double>{1.5, 7}));  // this scene is in W
 }
 
 TEST_CASE("bounds that are no source's are refused") {

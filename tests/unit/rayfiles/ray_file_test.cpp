@@ -16,7 +16,7 @@ namespace {
 
 /// A file with the content, opened; the file is gone with the folder.
 std::shared_ptr<const RayFile> opened(const TemporaryFolder& folder, const std::string& content,
-                                      std::optional<FluxQuantity> wanted = {}) {
+                                      std::optional<LightQuantity> wanted = {}) {
   write_whole(folder / "rays", content);
   return RayFile::open(folder / "rays", wanted);
 }
@@ -29,7 +29,7 @@ TEST_CASE("a TM-25 file is opened by its content, and its rays are read") {
   const RaySetHeader& header = file->header();
   CHECK(header.format == "IES TM-25-13");
   CHECK(header.title == "LED \xC2\xB5");
-  CHECK(header.quantity == FluxQuantity::radiant);
+  CHECK(header.quantity == LightQuantity::radiant);
   CHECK(header.total_flux == 3.0);
   CHECK(header.count == 3);
   CHECK(header.millimetres_per_unit == 1);
@@ -52,7 +52,7 @@ TEST_CASE("Zemax files are read in all units, in watts and in lumens") {
       const auto file = opened(folder, zemax_file(3, unit, 0, flux, three_rays()));
       INFO(unit << " " << flux);
       CHECK(file->header().format == "Zemax binary");
-      CHECK(file->header().quantity == (flux == 0 ? FluxQuantity::radiant : FluxQuantity::luminous));
+      CHECK(file->header().quantity == (flux == 0 ? LightQuantity::radiant : LightQuantity::luminous));
       CHECK(file->header().total_flux == 3.0);
       CHECK(*file->header().wavelength_nm == Approx(550));
       CHECK((file->ray(1).position_mm - millimetres[unit] * Vector3(4, 5, 6)).norm() <
@@ -76,17 +76,17 @@ TEST_CASE("of a TM-25 file with both fluxes the wanted one is read") {
   std::string content = tm25_file(2, {0, 0, 0, 0, 0, 1, 5, 500, 0, 0, 0, 0, 0, 1, 6, 600});
   content = with_f32(with_u32(content, 256 + 16, 1), 12, 1100.0f);
   const auto radiant = opened(folder, content);
-  CHECK(radiant->header().quantity == FluxQuantity::radiant);
+  CHECK(radiant->header().quantity == LightQuantity::radiant);
   CHECK(radiant->header().total_flux == 3.0);
   CHECK(radiant->flux(1) == 6);
   CHECK(radiant->header().notes.size() == 1);
-  const auto luminous = opened(folder, content, FluxQuantity::luminous);
-  CHECK(luminous->header().quantity == FluxQuantity::luminous);
+  const auto luminous = opened(folder, content, LightQuantity::luminous);
+  CHECK(luminous->header().quantity == LightQuantity::luminous);
   CHECK(luminous->header().total_flux == 1100.0);
   CHECK(luminous->flux(1) == 600);
-  CHECK_THROWS_WITH(opened(folder, tm25_file(3, three_rays()), FluxQuantity::luminous),
+  CHECK_THROWS_WITH(opened(folder, tm25_file(3, three_rays()), LightQuantity::luminous),
                     Catch::Contains("no luminous flux"));
-  CHECK_THROWS_WITH(opened(folder, zemax_file(3, 4, 0, 1, three_rays()), FluxQuantity::radiant),
+  CHECK_THROWS_WITH(opened(folder, zemax_file(3, 4, 0, 1, three_rays()), LightQuantity::radiant),
                     Catch::Contains("no radiant flux"));
 }
 

@@ -54,7 +54,7 @@ TEST_CASE("counts and totals that are left out are filled in") {
   writer.add(std::vector<float>{0, 0, 0, 0, 0, 1, 1, 100});
   writer.add(std::vector<float>{0, 0, 0, 0, 0, 1, 2, 300});
   writer.commit();
-  const auto luminous = RayFile::open(folder / "out", FluxQuantity::luminous);
+  const auto luminous = RayFile::open(folder / "out", LightQuantity::luminous);
   CHECK(luminous->count() == 2);
   CHECK(luminous->header().total_flux == 400.0);
   CHECK(RayFile::open(folder / "out")->header().total_flux == 3.0);

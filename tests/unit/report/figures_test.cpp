@@ -62,7 +62,8 @@ LandscapeFigure landscape() {
 }
 
 IrradianceFigure irradiance() {
-  return {"Irradiance", "mm", "W/m²", {{-1, 0, 1}, {-1, 0, 1}, {0, 1, 0, 1, 2, 1, 0, 1, 0}}, {}, {}, {}};
+  return {"Irradiance", "mm", "irradiance", "W/m²", {{-1, 0, 1}, {-1, 0, 1}, {0, 1, 0, 1, 2, 1, 0, 1, 0}}, {},
+          {},           {}};
 }
 
 }  // namespace
@@ -105,12 +106,13 @@ TEST_CASE("a dark field still has a colour scale") {
 }
 
 TEST_CASE("a radial cut draws bands where there is noise") {
-  RadialCutFigure figure{"Cut", "cm", "W/m²", {}};
+  RadialCutFigure figure{"Cut", "cm", "illuminance", "lx", {}};
   figure.curves = {{"target", {0, 1, 2}, {2, 1, 0.5}, {}, CurveRole::target},
                    {"total", {0, 1, 2}, {2.1, 1.1, 0.4}, {0.1, 0.1, 0.1}, CurveRole::obtained}};
   const std::string svg = drawn(radial_cut_script(figure));
   CHECK(count(svg, ">target<") == 1);
   CHECK(count(svg, ">total<") == 1);
+  CHECK(count(svg, "illuminance [lx]") == 1);
   CHECK(count(svg, "id=\"gnuplot_plot_") == 3);
   CHECK(count(svg, "fill-opacity") >= 1);
 }
