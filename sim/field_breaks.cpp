@@ -244,7 +244,10 @@ class Meetings {
 
 /// What a grid of rays cannot tell.
 std::optional<std::string> untold(const Scene& scene, UnknownBreaks unknown) {
+  if (scene.source.is_sampled()) return "the source is known by its rays alone";
   if (scene.source.extent_mm() > 0) return "the source is extended";
+  if (dynamic_cast<const PointSource*>(&scene.source) == nullptr)
+    return "the source's intensity may have steps";
   if (scene.mirror.transmittance > 0) return "light goes through the mirror, whose edges it shows";
   if (scene.near_field.material() && unknown != UnknownBreaks::folds)
     return "the near field is real and may shade the mirror";

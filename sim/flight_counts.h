@@ -28,10 +28,9 @@ class SharedCounts {
   }
 
   /// Totals of `photons` photons that share `emitted_w`. From the first meeting with the mirror on, each
-  /// carries what survives there of its power; the rest is absorbed.
-  FlightTotals totals(std::uint64_t photons, double emitted_w, const Material& mirror) const {
+  /// carries a share of its power; the rest is absorbed.
+  FlightTotals totals(std::uint64_t photons, double emitted_w, double share) const {
     FlightTotals totals;
-    const double share = surviving_share(mirror);
     const double before_w = photons > 0 ? emitted_w / static_cast<double>(photons) : 0;
     totals.energy.emitted_w = photons > 0 ? emitted_w : 0;
     totals.photon_power_w = share * before_w;

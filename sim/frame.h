@@ -18,4 +18,8 @@ inline Eigen::Matrix3d frame_about(const Vector3& axis) {
   return frame;
 }
 
+/// The same with its first column as near to `along` as can be.
+/// @fails InputError when that is no direction across the axis
+Eigen::Matrix3d frame_along(const Vector3& axis, const Vector3& along);
+
 }  // namespace catoptric::sim

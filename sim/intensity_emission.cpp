@@ -124,7 +124,7 @@ void IntensityEmission::add_row(const IntensityTable& table, double low_deg, dou
   rows_.push_back(std::move(row));
 }
 
-Ray IntensityEmission::emit(const std::array<double, 4>& numbers) const {
+Ray IntensityEmission::emit(const std::array<double, 4>& numbers, std::uint64_t) const {
   if (rows_.empty()) return {position_mm_, frame_.col(2)};
   const double along = numbers[0] * light_;
   const Row& row = part_at(rows_, along);

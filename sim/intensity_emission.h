@@ -26,7 +26,7 @@ class IntensityEmission final : public Emission {
                     const ProjectionMap* towards, double power_w);
   double power_w() const override { return power_w_; }
   std::size_t numbers() const override { return 2; }
-  Ray emit(const std::array<double, 4>& numbers) const override;
+  Ray emit(const std::array<double, 4>& numbers, std::uint64_t stream) const override;
 
  private:
   /// A piece of the table between two angles of each kind; intensities at its corners.

@@ -28,16 +28,7 @@ IntensitySource::IntensitySource(const Vector3& position_mm, double power_w,
     throw InputError(
         {"the table of intensities is dark", "source", "a source shines somewhere", "another file"});
   w_per_unit_ = power_w / flux;
-  frame_ = frame_about(unit_axis(axis));
-  const Vector3 up = frame_.col(2), across = along - along.dot(up) * up;
-  constexpr double least = 1e-9;  // rad between the two directions
-  if (across.norm() > least * along.norm()) {
-    frame_.col(0) = across.normalized();
-    frame_.col(1) = up.cross(frame_.col(0));
-  } else if (!table_->is_rotational()) {
-    throw InputError({"the direction of C = 0 is none across the axis", "source",
-                      "it must not be zero or along the axis", "[1, 0, 0] for an axis along z"});
-  }
+  frame_ = table_->is_rotational() ? frame_about(unit_axis(axis)) : frame_along(unit_axis(axis), along);
 }
 
 double IntensitySource::intensity_w_per_sr(const Vector3& direction) const {

@@ -96,7 +96,7 @@ FlightTotals PlaneFlights::fly(const PhotonOptions& options, bool front, const T
       if (crossing.from_front() == front) squares.push_back(crossing.plane_mm().squaredNorm());
     take(i, squares);
   });
-  return counts.totals(photons, parts_->emission->power_w(), parts_->scene.scene.mirror);
+  return counts.totals(photons, parts_->emission->power_w(), first_share(parts_->scene.scene));
 }
 
 }  // namespace catoptric::sim

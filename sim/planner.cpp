@@ -53,7 +53,7 @@ class Description {
     mirror();
     near_field();
     more_meetings();
-    shadow();
+    if (!scene_.source.is_sampled()) shadow();
     if (rung != Rung::tubes) {
       directions();
       jumps(rung);
@@ -69,7 +69,8 @@ class Description {
   void source() {
     const Source& light = scene_.source;
     const Vector3& at_mm = light.position_mm();
-    const bool on_axis = at_mm.x() == 0 && at_mm.y() == 0, extended = light.extent_mm() > 0;
+    const bool on_axis = at_mm.x() == 0 && at_mm.y() == 0;
+    const bool extended = light.extent_mm() > 0 || light.is_sampled();
     add("source", fmt::format("{} {} the axis", light.words(), on_axis ? "on" : "off"),
         !on_axis || extended    ? "rays leave their meridian plane: three dimensions"
         : light.tilt_rad() == 0 ? "rays stay in their meridian plane: two dimensions are enough"
@@ -119,6 +120,8 @@ class Description {
   }
 
   void directions() {
+    if (scene_.source.is_sampled())
+      return add("emission", "all rays of the source", "direct light comes by photons too");
     const double power_w = scene_.source.power_w();
     const double share = power_w > 0 ? emission_of(scene_)->power_w() / power_w : 0;
     add("emission", fmt::format("{:.3g} of the light goes where the mirror may be met", share),

@@ -19,7 +19,9 @@ class MapEmission final : public Emission {
       : source_(source), map_(std::move(map)), power_w_(source.power_into_w(map_)) {}
   double power_w() const override { return power_w_; }
   std::size_t numbers() const override { return source_.emission_numbers(); }
-  Ray emit(const std::array<double, 4>& numbers) const override { return source_.emit(map_, numbers); }
+  Ray emit(const std::array<double, 4>& numbers, std::uint64_t) const override {
+    return source_.emit(map_, numbers);
+  }
   const ProjectionMap* directions() const override { return source_.extent_mm() == 0 ? &map_ : nullptr; }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -29,10 +30,11 @@ class Emission {
   virtual std::size_t numbers() const { return 4; }
 
   /// One photon's path.
-  /// @in    numbers: uniform in [0, 1)
+  /// @in    numbers: uniform in [0, 1); stream: of the set of photons, of meaning to a source that has but so
+  ///        many rays
   /// @out   a continuous function of the numbers as far as the source allows, so that low-discrepancy points
   ///        keep their quality
-  virtual Ray emit(const std::array<double, 4>& numbers) const = 0;
+  virtual Ray emit(const std::array<double, 4>& numbers, std::uint64_t stream = 0) const = 0;
 
   /// Of a point source that follows a law of the cosine: its directions, which are all there is to tell.
   virtual const ProjectionMap* directions() const { return nullptr; }
@@ -55,8 +57,13 @@ class Source {
   /// Whether the source and its light are symmetric about that axis.
   virtual bool is_round() const { return true; }
 
+  /// Whether it is known by rays alone: direct light cannot be computed, so that photons bring it, and those
+  /// that never meet the mirror are recorded as well.
+  virtual bool is_sampled() const { return false; }
+
   /// Power per solid angle in a direction, W/sr, as seen from so far that the source is a point.
   /// @in    direction: a unit vector
+  /// @out   0 of a source that is sampled
   virtual double intensity_w_per_sr(const Vector3& direction) const = 0;
 
   /// What it is, in words: "a point", "a disc ..."; and what of its nature the model leaves out.
@@ -68,7 +75,7 @@ class Source {
   virtual std::unique_ptr<Emission> emission() const = 0;
 
   /// Irradiance straight from the source on a surface element with nothing in the way, W/mm^2; 0 behind the
-  /// element and in its own plane.
+  /// element and in its own plane, and of a source that is sampled.
   virtual double unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const = 0;
 
   /// The same with occlusion by the mirror.

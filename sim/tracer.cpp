@@ -44,7 +44,10 @@ struct Flight {
 class PhotonTracer {
  public:
   explicit PhotonTracer(Flight flight)
-      : flight_(flight), field_(flight.scene.near_field), probe_(flight.scene.reflector.probe()) {}
+      : flight_(flight),
+        field_(flight.scene.near_field),
+        direct_too_(flight.scene.source.is_sampled()),
+        probe_(flight.scene.reflector.probe()) {}
 
   ChunkResult trace(std::uint64_t first, std::uint64_t last) {
     result_ = {};
@@ -109,7 +112,7 @@ class PhotonTracer {
     for (std::uint64_t photon = first; photon < last; ++photon) {
       std::array<double, most_emission_numbers> own{};
       for (std::size_t row = 0; row < rows; ++row) own[row] = numbers[row][photon - first];
-      photons_.emplace_back(photon, flight_.emission.emit(own), flight_.key);
+      photons_.emplace_back(photon, flight_.emission.emit(own, flight_.options.stream), flight_.key);
     }
   }
 
@@ -131,7 +134,7 @@ class PhotonTracer {
   std::optional<Fate> advance(Photon& photon, const std::optional<Hit>& hit) {
     const auto arrival = meet_plane(photon, hit ? hit->distance_mm : HUGE_VAL);
     const bool stops = arrival && field_.material() && field_.contains(arrival->plane_mm);
-    if (arrival && photon.touched) record(photon, *arrival);
+    if (arrival && (photon.touched || direct_too_)) record(photon, *arrival);
     if (!stops && !hit)
       return !photon.touched ? Fate::missed : photon.received ? Fate::received : Fate::escaped;
     if (photon.interactions == flight_.options.most_interactions) return Fate::cut_off;
@@ -162,7 +165,7 @@ class PhotonTracer {
     if (!flight_.area.contains(arrival.plane_mm)) return;
     const std::uint64_t photon_and_side = 2 * photon.number + (arrival.from_front ? 1 : 0);
     result_.crossings.push_back({arrival.plane_mm.x(), arrival.plane_mm.y(), photon_and_side});
-    if (arrival.from_front && field_.contains(arrival.plane_mm)) photon.received = true;
+    if (photon.touched && arrival.from_front && field_.contains(arrival.plane_mm)) photon.received = true;
   }
 
   /// @out false when the photon is absorbed
@@ -173,8 +176,9 @@ class PhotonTracer {
     photon.on_field = false;
     photon.ray.origin_mm = hit.point_mm;
     const Material& mirror = flight_.scene.mirror;
-    const Interaction interaction = first ? first_interaction(mirror, [&] { return photon.chance.uniform(); })
-                                          : decide(mirror, photon.chance);
+    const Interaction interaction = first && !direct_too_
+                                        ? first_interaction(mirror, [&] { return photon.chance.uniform(); })
+                                        : decide(mirror, photon.chance);
     if (interaction == Interaction::reflected)
       photon.ray.direction = reflect(photon.ray.direction, hit.normal);
     return interaction != Interaction::absorbed;
@@ -202,6 +206,7 @@ class PhotonTracer {
 
   Flight flight_;
   const NearField& field_;
+  bool direct_too_;  ///< photons that have not met the mirror are recorded as well
   std::unique_ptr<Probe> probe_;
   std::vector<Photon> photons_;           ///< on their way
   std::vector<char> asked_;               ///< of each: whether its ray is asked of the probe in this wave
@@ -233,8 +238,12 @@ std::unique_ptr<const Emission> emission_of(const Scene& scene) {
     throw InputError(std::move(*defect));
   }
   const auto& material = scene.near_field.material();
-  if (material && material->reflectance > 0) return scene.source.emission();
+  if (scene.source.is_sampled() || (material && material->reflectance > 0)) return scene.source.emission();
   return scene.source.emission_to(scene.reflector.profile());
+}
+
+double first_share(const Scene& scene) {
+  return scene.source.is_sampled() ? 1 : surviving_share(scene.mirror);
 }
 
 struct PhotonFlights::Parts {
@@ -291,7 +300,9 @@ FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossing
 }
 
 double PhotonFlights::photon_power_w(std::uint64_t photons) const {
-  return SharedCounts().totals(photons, parts_->emission->power_w(), parts_->scene.mirror).photon_power_w;
+  return SharedCounts()
+      .totals(photons, parts_->emission->power_w(), first_share(parts_->scene))
+      .photon_power_w;
 }
 
 FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossings& take,
@@ -316,7 +327,7 @@ FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossing
     begin = end;
   } while (begin < chunks(photons));
 
-  return counts.totals(photons, parts_->emission->power_w(), parts_->scene.mirror);
+  return counts.totals(photons, parts_->emission->power_w(), first_share(parts_->scene));
 }
 
 StoredChunk store(std::span<const Crossing> crossings, const RecordedArea& area) {

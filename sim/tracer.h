@@ -99,6 +99,10 @@ void give_up_if_stopped(const PhotonOptions& options);
 /// @fails InputError for a bad mirror material
 std::unique_ptr<const Emission> emission_of(const Scene& scene);
 
+/// The share of its power that a photon carries on from its first meeting with the mirror, unless chance
+/// decides there too: of a sampled source all photons are recorded together, and so carry the same.
+double first_share(const Scene& scene);
+
 /// What is known of a set of photons after their flight, without the crossings.
 struct FlightTotals {
   double photon_power_w = 0;  ///< of one that has met the mirror: what survives its first meeting

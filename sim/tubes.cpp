@@ -136,6 +136,7 @@ TubesField tubes_field(const Scene& scene, std::span<const FieldSample> samples,
 std::optional<std::string> tubes_objection(const Source& source, const Profile& profile,
                                            const NearField& near_field) {
   const Tolerance tolerance = Tolerance::for_scale(profile.diagonal_mm());
+  if (source.is_sampled()) return "the source is known by its rays alone";
   if (source.extent_mm() > 0) return "the source is extended";
   if (dynamic_cast<const PointSource*>(&source) == nullptr)
     return "the source's intensity is no power of a cosine";

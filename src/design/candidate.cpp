@@ -72,6 +72,8 @@ std::unique_ptr<sim::Source> make_source(const SourceSpec& spec) {
                                                        spec.power_w);
     case SourceKind::intensity:
       return std::make_unique<sim::IntensitySource>(at_mm, spec.power_w, spec.table, spec.axis, spec.along);
+    case SourceKind::rays:
+      return std::make_unique<sim::RaySource>(at_mm, spec.power_w, spec.rays, spec.axis, spec.along);
     case SourceKind::point:
       break;
   }
@@ -87,6 +89,7 @@ std::optional<double> far_exponent(const SourceSpec& spec) {
       return 0;
     case SourceKind::cylinder:
     case SourceKind::intensity:
+    case SourceKind::rays:
       return std::nullopt;
     case SourceKind::point:
       break;

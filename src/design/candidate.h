@@ -15,11 +15,11 @@
 #include "design/free_profile.h"
 #include "design/variables.h"
 #include "sim/material.h"
-#include "sim/source.h"
+#include "sim/ray_source.h"
 
 namespace catoptric::design {
 
-enum class SourceKind { point, disc, rectangle, sphere, cylinder, intensity };
+enum class SourceKind { point, disc, rectangle, sphere, cylinder, intensity, rays };
 
 struct SourceSpec {
   Vector3 position_mm;
@@ -32,6 +32,7 @@ struct SourceSpec {
   double width_mm = 0, height_mm = 0;  ///< of a rectangle
   Vector3 along = Vector3::UnitX();    ///< direction of its width; of C = 0
   std::shared_ptr<const IntensityTable> table = nullptr;  ///< of a point with measured intensity
+  std::shared_ptr<const sim::RayBundle> rays = nullptr;   ///< of a ray file
   LightQuantity quantity = LightQuantity::radiant;
 };
 
@@ -39,7 +40,7 @@ struct SourceSpec {
 std::unique_ptr<sim::Source> make_source(const SourceSpec& spec);
 
 /// The exponent of its intensity's cosine from afar: what is flat is Lambert's, 0 is alike in all directions;
-/// nothing for a cylinder, which follows a sine, and a table.
+/// nothing for a cylinder, which follows a sine, tables and rays.
 std::optional<double> far_exponent(const SourceSpec& spec);
 
 /// What a design vector decides: the mirror's shape, and the source and the mirror's surface it is judged

@@ -31,7 +31,7 @@ const std::vector<Key>& scene_table() {
       {.path = "tailored.degree", .type = integer, .least = 2, .greatest = 9, .standard = "3", .meaning = "degree of a generatrix made from nothing"},
       {.path = "tailored.points", .type = integer, .least = 3, .greatest = 64, .standard = "10", .meaning = "its control points"},
 
-      {.path = "source.kind", .type = choice, .choices = {"point", "disc", "rectangle", "sphere", "cylinder", "intensity"}, .standard = "\"point\"", .meaning = "a point; or a surface that radiates by Lambert's law: one side of a flat disc or rectangle, a sphere, the side of a cylinder; or a point with the intensities of a photometric file"},
+      {.path = "source.kind", .type = choice, .choices = {"point", "disc", "rectangle", "sphere", "cylinder", "intensity", "rays"}, .standard = "\"point\"", .meaning = "a point; or a surface that radiates by Lambert's law: one side of a flat disc or rectangle, a sphere, the side of a cylinder; or a point with the intensities of a photometric file; or the rays of a ray file"},
       {.path = "source.position", .type = numbers, .quantity = Q::length, .least = -far, .greatest = far, .count = 3, .standard = "[0.0, 0.0, 0.0]", .meaning = "x, y, z of the source, of a disc's centre"},
       {.path = "source.power", .type = number, .quantity = Q::power_w, .least = least_power_w, .greatest = 1e12, .meaning = "radiant power of the source"},
       {.path = "source.flux", .type = number, .quantity = Q::flux_lm, .least = least_power_w, .greatest = 1e12, .meaning = "luminous flux of the source, instead of its power: then all of the scene is in lm, lx and cd"},
@@ -41,8 +41,8 @@ const std::vector<Key>& scene_table() {
       {.path = "source.length", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "cylinder: its length"},
       {.path = "source.width", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "rectangle: its width"},
       {.path = "source.height", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "rectangle: its height"},
-      {.path = "source.along", .type = numbers, .least = -far, .greatest = far, .count = 3, .meaning = "rectangle: direction of its width; intensity: direction of C = 0; taken across the axis, [1, 0, 0] when left out"},
-      {.path = "source.file", .type = text, .meaning = "intensity: IES LM-63 (.ies) or EULUMDAT (.ldt) file; its shape counts, and its light too when neither source.power nor source.flux is given. source.axis is the direction of gamma = 0"},
+      {.path = "source.along", .type = numbers, .least = -far, .greatest = far, .count = 3, .meaning = "rectangle: direction of its width; intensity: direction of C = 0; rays: direction of the file's x; taken across the axis, [1, 0, 0] when left out"},
+      {.path = "source.file", .type = text, .meaning = "intensity: IES LM-63 (.ies) or EULUMDAT (.ldt) file, with source.axis the direction of gamma = 0; rays: IES TM-25 or Zemax binary ray file, with source.axis the direction of its z and source.position its origin. Its shape counts, and its light too when neither source.power nor source.flux is given"},
 
       {.path = "reflector.name", .type = text, .standard = "\"reflector\"", .meaning = "name of the part in exchange files"},
       {.path = "reflector.degree", .type = integer, .least = 1, .greatest = 9, .meaning = "degree of the generatrix"},

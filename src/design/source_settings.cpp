@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "design/ray_bundle.h"
 #include "photometry/intensity_file.h"
 
 namespace catoptric::design {
@@ -19,7 +20,8 @@ void refuse(const Settings& settings, const char* path, const char* why) {
 
 const std::map<std::string, SourceKind> source_kinds{
     {"point", SourceKind::point},   {"disc", SourceKind::disc},         {"rectangle", SourceKind::rectangle},
-    {"sphere", SourceKind::sphere}, {"cylinder", SourceKind::cylinder}, {"intensity", SourceKind::intensity}};
+    {"sphere", SourceKind::sphere}, {"cylinder", SourceKind::cylinder}, {"intensity", SourceKind::intensity},
+    {"rays", SourceKind::rays}};
 
 /// A key that belongs to some kinds alone.
 struct SourceKey {
@@ -37,15 +39,24 @@ const SourceKey source_keys[] = {
     {"source.length", {"cylinder"}, "only a cylinder has one", true},
     {"source.width", {"rectangle"}, "only a rectangle has one", true},
     {"source.height", {"rectangle"}, "only a rectangle has one", true},
-    {"source.along", {"rectangle", "intensity"}, "light that is alike round its axis has no other", false},
-    {"source.file", {"intensity"}, "only a measured intensity is in a file", true},
+    {"source.along",
+     {"rectangle", "intensity", "rays"},
+     "light that is alike round its axis has no other",
+     false},
+    {"source.file", {"intensity", "rays"}, "only what was measured is in a file", true},
 };
 
 /// The light of a file that says how much it is, unless the scene does.
-void fill_flux_of_file(Settings& settings) {
-  const IntensityTable table = photometry::read_intensity(*settings.text("source.file")).table;
+void fill_flux_of_file(Settings& settings, const std::string& kind) {
   if (settings.has("source.power") || settings.has("source.flux")) return;
-  settings.fill(power_key(table.quantity()), fmt::format("{}", table.flux()));
+  const std::string file = *settings.text("source.file");
+  if (kind == "rays") {
+    const RayFileLight light = read_rays(file, {});
+    settings.fill(power_key(light.quantity), fmt::format("{}", light.flux));
+  } else {
+    const IntensityTable table = photometry::read_intensity(file).table;
+    settings.fill(power_key(table.quantity()), fmt::format("{}", table.flux()));
+  }
 }
 
 void require_one_power(const Settings& settings) {
@@ -71,16 +82,20 @@ void complete_source(Settings& settings) {
     if (!owned) refuse(settings, key.path, key.why_not);
     if (owned && key.is_needed && !settings.has(key.path))
       throw settings.error(key.path, "is missing", fmt::format("a {} needs it", kind),
-                           fmt::format("{} = {}", key.path, kind == "intensity" ? "\"lamp.ies\"" : "5"));
+                           fmt::format("{} = {}", key.path,
+                                       kind == "intensity" ? "\"lamp.ies\""
+                                       : kind == "rays"    ? "\"lamp.tm25ray\""
+                                                           : "5"));
   }
-  if (kind == "intensity") {
+  const bool from_file = kind == "intensity" || kind == "rays";
+  if (from_file) {
     settings.make_absolute("source.file");
-    fill_flux_of_file(settings);
+    fill_flux_of_file(settings, kind);
   }
   require_one_power(settings);
   const bool point = kind == "point";
   if (point) settings.fill("source.exponent", "0.0");
-  if (kind == "rectangle" || kind == "intensity") settings.fill("source.along", "[1.0, 0.0, 0.0]");
+  if (kind == "rectangle" || from_file) settings.fill("source.along", "[1.0, 0.0, 0.0]");
   const bool even = kind == "sphere" || (point && !(*settings.number("source.exponent") > 0) &&
                                          !settings.has("variables.source.exponent.step"));
   if (even)
@@ -121,6 +136,7 @@ SourceSpec source_spec(const Settings& settings, double unit_mm) {
   if (spec.kind == SourceKind::intensity)
     spec.table = std::make_shared<const IntensityTable>(
         photometry::read_intensity(*settings.text("source.file")).table);
+  if (spec.kind == SourceKind::rays) spec.rays = read_rays(*settings.text("source.file"), quantity).rays;
   return spec;
 }
 

@@ -9,7 +9,7 @@ using namespace catoptric;
 using namespace catoptric::photometry;
 using namespace catoptric::test;
 
-TEST_CASE("random tables come back from IES and EULUMDAT to the same bits") {
+TEST_CASE("random tables come back from IES and EULUMDAT to the same bits", "[long]") {
   std::set<EulumdatSymmetry> symmetries;
   for (std::uint64_t i = 0; i < 500; ++i) {
     INFO("table " << i);

@@ -7,7 +7,7 @@
 using namespace catoptric;
 using namespace catoptric::test;
 
-TEST_CASE("ray files with a few changed bytes are read, or refused in words") {
+TEST_CASE("ray files with a few changed bytes are read, or refused in words", "[long]") {
   std::string tm25 = "\1" + tm25_file(3, three_rays());
   tm25.erase(1 + 288, 36000);  // as the target takes them
   const std::string zemax = std::string(1, '\0') + zemax_file(3, 4, 0, 0, three_rays());

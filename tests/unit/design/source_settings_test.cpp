@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "design/run.h"
+#include "support/ray_bytes.h"
 #include "support/temporary_folder.h"
 
 using namespace catoptric;
@@ -64,14 +65,47 @@ TEST_CASE("a photometric file makes the source, and its name is kept whole") {
   const std::string text = scene_text(scene);
   CHECK_THAT(text, Catch::Contains(file));
   CHECK(scene_text(make_scene(Settings::parse(text, "elsewhere/test.toml", scene_keys()))) == text);
-  const Scene own = make_scene(Settings::parse("source.kind = \"intensity\"\nsource.file = \"" + file +
-                                                   "\"\nreflector.points = [[0, 10], [5, 10], [10, 5]]\nnear_field.radius = 8\n",
-                                               "test.toml", scene_keys()));
+  const Scene own = make_scene(
+      Settings::parse("source.kind = \"intensity\"\nsource.file = \"" + file +
+                          "\"\nreflector.points = [[0, 10], [5, 10], [10, 5]]\nnear_field.radius = 8\n",
+                      "test.toml", scene_keys()));
   CHECK(own.source.quantity == LightQuantity::luminous);
   CHECK(own.source.power_w == Approx(own.source.table->flux()).epsilon(1e-15));
   CHECK_THROWS_WITH(scene_of("kind = \"intensity\""), Catch::Contains("source.file"));
   CHECK_THROWS_WITH(scene_of("kind = \"intensity\"\nfile = \"none.ies\""), Catch::Contains("none.ies"));
   CHECK_THROWS_WITH(scene_of("file = \"beam.ies\""), Catch::Contains("source.file"));
+}
+
+TEST_CASE("a ray file makes the source, placed and turned, with its own light or the scene's") {
+  const test::TemporaryFolder folder;
+  test::write_whole(folder / "led.tm25ray", test::tm25_file(3, test::three_rays()));
+  const auto scene = [&](const std::string& more) {
+    const std::string text = "source.kind = \"rays\"\nsource.file = \"" + (folder / "led.tm25ray").string() +
+                             "\"\nreflector.points = [[0, 10], [5, 10], [10, 5]]\nnear_field.radius = 8\n" +
+                             more;
+    return make_scene(Settings::parse(text, "test.toml", scene_keys()));
+  };
+  const Scene own = scene("source.position = [1, 0, 0]\nsource.axis = [0, 0, -1]\n");
+  CHECK(own.source.quantity == LightQuantity::radiant);
+  CHECK(own.source.power_w == 3);
+  const auto source = make_source(own.source);
+  CHECK(source->is_sampled());
+  // Two rays carry 1 and 2 W: the first third of the numbers picks the first.
+  const auto emission = source->emission();
+  const Ray first = emission->emit({0.3, 0, 0, 0}), second = emission->emit({0.4, 0, 0, 0});
+  CHECK((first.origin_mm - Vector3(2, -2, -3)).norm() < 1e-6);
+  CHECK((first.direction - Vector3(0, 0, -1)).norm() < 1e-6);
+  CHECK((second.origin_mm - Vector3(5, -5, -6)).norm() < 1e-6);
+  CHECK((second.direction - Vector3(0.6, 0, 0.8)).norm() < 1e-6);
+  CHECK(scene("source.flux = 100\n").source.power_w == 100);
+  const std::string text = scene_text(own);
+  CHECK(scene_text(make_scene(Settings::parse(text, "elsewhere/test.toml", scene_keys()))) == text);
+  CHECK_THROWS_WITH(scene("source.exponent = 1\n"), Catch::Contains("source.exponent"));
+  CHECK_THROWS_WITH(scene("start = \"tailored\"\ntarget.kind = \"uniform\"\ntarget.radius = 3\n"
+                          "target.irradiance = 1\n"),
+                    Catch::Contains("source.kind"));
+  test::write_whole(folder / "led.tm25ray", test::tm25_file(4, test::three_rays()));
+  CHECK_THROWS_WITH(scene(""), Catch::Contains("led.tm25ray"));
 }
 
 TEST_CASE("keys that do not belong to the source are refused") {
