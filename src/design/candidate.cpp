@@ -13,6 +13,7 @@
 #include "sim/disc_source.h"
 #include "sim/intensity_source.h"
 #include "sim/rectangle_source.h"
+#include "sim/source_group.h"
 #include "sim/sphere_source.h"
 
 namespace catoptric::design {
@@ -55,6 +56,19 @@ std::vector<std::string> shape_names(const std::vector<std::string>& all) {
   return shape;
 }
 
+/// Where the group stands, and as bright as it is.
+std::unique_ptr<sim::Source> make_group(const SourceSpec& spec) {
+  double power_w = 0;
+  for (const SourceSpec& part : spec.parts) power_w += part.power_w;
+  std::vector<std::unique_ptr<const sim::Source>> parts;
+  for (SourceSpec part : spec.parts) {
+    part.position_mm += spec.position_mm;
+    if (power_w != spec.power_w) part.power_w *= spec.power_w / power_w;
+    parts.push_back(make_source(part));
+  }
+  return std::make_unique<sim::SourceGroup>(std::move(parts));
+}
+
 }  // namespace
 
 std::unique_ptr<sim::Source> make_source(const SourceSpec& spec) {
@@ -74,6 +88,8 @@ std::unique_ptr<sim::Source> make_source(const SourceSpec& spec) {
       return std::make_unique<sim::IntensitySource>(at_mm, spec.power_w, spec.table, spec.axis, spec.along);
     case SourceKind::rays:
       return std::make_unique<sim::RaySource>(at_mm, spec.power_w, spec.rays, spec.axis, spec.along);
+    case SourceKind::several:
+      return make_group(spec);
     case SourceKind::point:
       break;
   }
@@ -90,6 +106,7 @@ std::optional<double> far_exponent(const SourceSpec& spec) {
     case SourceKind::cylinder:
     case SourceKind::intensity:
     case SourceKind::rays:
+    case SourceKind::several:
       return std::nullopt;
     case SourceKind::point:
       break;

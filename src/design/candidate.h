@@ -19,7 +19,7 @@
 
 namespace catoptric::design {
 
-enum class SourceKind { point, disc, rectangle, sphere, cylinder, intensity, rays };
+enum class SourceKind { point, disc, rectangle, sphere, cylinder, intensity, rays, several };
 
 struct SourceSpec {
   Vector3 position_mm;
@@ -34,13 +34,15 @@ struct SourceSpec {
   std::shared_ptr<const IntensityTable> table = nullptr;  ///< of a point with measured intensity
   std::shared_ptr<const sim::RayBundle> rays = nullptr;   ///< of a ray file
   LightQuantity quantity = LightQuantity::radiant;
+  std::vector<SourceSpec> parts = {};  ///< of several: their places from `position_mm`, their shares of the power
 };
 
 /// The source as the light room has it.
 std::unique_ptr<sim::Source> make_source(const SourceSpec& spec);
 
 /// The exponent of its intensity's cosine from afar: what is flat is Lambert's, 0 is alike in all directions;
-/// nothing for a cylinder, which follows a sine, tables and rays.
+/// nothing for a cylinder, which follows a sine, tables, rays and several
+/// sources.
 std::optional<double> far_exponent(const SourceSpec& spec);
 
 /// What a design vector decides: the mirror's shape, and the source and the mirror's surface it is judged

@@ -1,3 +1,6 @@
+#include <deque>
+#include <string>
+
 #include "base/tolerance.h"
 #include "design/keys.h"
 #include "sim/emission.h"
@@ -10,13 +13,33 @@ namespace {
 constexpr double least_power_w = 1e-30, least_level = 1e-30;
 constexpr double near = nearest, far = farthest;
 
+/// The rows of a source once more, for one among several.
+std::vector<Key> with_named_sources(const std::vector<Key>& keys) {
+  static std::deque<std::string> texts;  // rows keep views of them
+  constexpr std::string_view of_one = "source.";
+  std::vector<Key> all, named;
+  for (const Key& key : keys) {
+    const bool of_source = key.path.starts_with(of_one);
+    if (!of_source) all.insert(all.end(), named.begin(), named.end());
+    if (!of_source) named.clear();
+    all.push_back(key);
+    if (!of_source) continue;
+    Key one = key;
+    one.path = texts.emplace_back("sources.*." + std::string(key.path.substr(of_one.size())));
+    one.standard = {};
+    one.meaning = texts.emplace_back("of one among several sources, as " + std::string(key.path));
+    named.push_back(one);
+  }
+  return all;
+}
+
 // A table reads as rows.
 // clang-format off
 
 const std::vector<Key>& scene_table() {
   using enum KeyType;
   using Q = Quantity;
-  static const std::vector<Key> table{
+  static const std::vector<Key> table = with_named_sources({
       {.path = "title", .type = text, .standard = "\"\"", .meaning = "what the scene is, shown in reports"},
       {.path = "unit", .type = choice, .choices = {"mm", "cm", "m", "in"}, .standard = "\"mm\"", .meaning = "unit of every length in the scene and in what is written for it"},
       {.path = "seed", .type = integer, .least = 0, .greatest = 9e15, .standard = "1", .meaning = "key of all random numbers"},
@@ -31,7 +54,7 @@ const std::vector<Key>& scene_table() {
       {.path = "tailored.degree", .type = integer, .least = 2, .greatest = 9, .standard = "3", .meaning = "degree of a generatrix made from nothing"},
       {.path = "tailored.points", .type = integer, .least = 3, .greatest = 64, .standard = "10", .meaning = "its control points"},
 
-      {.path = "source.kind", .type = choice, .choices = {"point", "disc", "rectangle", "sphere", "cylinder", "intensity", "rays"}, .standard = "\"point\"", .meaning = "a point; or a surface that radiates by Lambert's law: one side of a flat disc or rectangle, a sphere, the side of a cylinder; or a point with the intensities of a photometric file; or the rays of a ray file"},
+      {.path = "source.kind", .type = choice, .choices = {"point", "disc", "rectangle", "sphere", "cylinder", "intensity", "rays", "several"}, .standard = "\"point\"", .meaning = "a point; or a surface that radiates by Lambert's law: one side of a flat disc or rectangle, a sphere, the side of a cylinder; or a point with the intensities of a photometric file; or the rays of a ray file; or several, named by sources.NAME"},
       {.path = "source.position", .type = numbers, .quantity = Q::length, .least = -far, .greatest = far, .count = 3, .standard = "[0.0, 0.0, 0.0]", .meaning = "x, y, z of the source, of a disc's centre"},
       {.path = "source.power", .type = number, .quantity = Q::power_w, .least = least_power_w, .greatest = 1e12, .meaning = "radiant power of the source"},
       {.path = "source.flux", .type = number, .quantity = Q::flux_lm, .least = least_power_w, .greatest = 1e12, .meaning = "luminous flux of the source, instead of its power: then all of the scene is in lm, lx and cd"},
@@ -161,7 +184,7 @@ const std::vector<Key>& scene_table() {
       {.path = "export.unit", .type = choice, .choices = {"mm", "cm", "m", "in"}, .standard = "\"mm\"", .meaning = "unit of length inside exchange files"},
       {.path = "export.step_schema", .type = choice, .choices = {"ap203", "ap214", "ap242"}, .standard = "\"ap214\"", .meaning = "STEP application protocol"},
       {.path = "export.iges_mode", .type = choice, .choices = {"faces", "brep"}, .standard = "\"faces\"", .meaning = "IGES entities: trimmed surfaces (144) or boundary representation (186)"},
-  };
+  });
   return table;
 }
 

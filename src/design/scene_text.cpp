@@ -50,11 +50,17 @@ std::string scene_text(const Scene& scene) {
     text += fmt::format("{} = {}\n", path.substr(dot == std::string::npos ? 0 : dot + 1),
                         std::visit(ValueText{}, setting.value));
   };
-  for (const Key& key : scene_keys()) {
-    if (key.path.find('*') != std::string_view::npos) continue;
-    if (const auto found = scene.settings.all().find(key.path); found != scene.settings.all().end())
+  const auto write_set = [&](std::string_view path) {
+    if (const auto found = scene.settings.all().find(path); found != scene.settings.all().end())
       write(found->first, found->second);
-  }
+  };
+  for (const Key& key : scene_keys())
+    if (key.path.find('*') == std::string_view::npos) write_set(key.path);
+  constexpr std::string_view one_of_several = "sources.*.";
+  for (const std::string& name : scene.settings.names_under("sources"))
+    for (const Key& key : scene_keys())
+      if (key.path.starts_with(one_of_several))
+        write_set("sources." + name + "." + std::string(key.path.substr(one_of_several.size())));
   std::vector<std::string> listed = scene.settings.names_under("variables");  // all that free ones start from
   if (scene.search.free == Freedom::listed) listed = names(scene.variables);
   for (const std::string& name : listed)

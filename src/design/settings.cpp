@@ -107,7 +107,7 @@ std::vector<std::string> Settings::names_under(std::string_view prefix) const {
     if (!path.starts_with(start)) continue;
     std::string name = path.substr(start.size());
     name = name.substr(0, name.rfind('.'));
-    if (names.empty() || names.back() != name) names.push_back(name);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   return names;
 }

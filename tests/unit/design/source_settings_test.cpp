@@ -108,6 +108,39 @@ TEST_CASE("a ray file makes the source, placed and turned, with its own light or
   CHECK_THROWS_WITH(scene(""), Catch::Contains("led.tm25ray"));
 }
 
+TEST_CASE("several sources have keys of their own, and are in watts or in lumens together") {
+  const auto scene = [](const std::string& sources) {
+    return make_scene(
+        Settings::parse("unit = \"cm\"\n" + sources +
+                            "reflector.points = [[0, 10], [5, 10], [10, 5]]\nnear_field.radius = 8\n",
+                        "test.toml", scene_keys()));
+  };
+  const std::string lamp = "sources.lamp.position = [0, 1, 5]\nsources.lamp.power = 2\n",
+                    chip =
+                        "sources.chip.kind = \"disc\"\nsources.chip.radius = 0.5\nsources.chip.power = 3\n";
+  const Scene both = scene(lamp + chip + "source.position = [0, 0, 1]\n");
+  CHECK(both.source.kind == SourceKind::several);
+  CHECK(both.source.power_w == 5);
+  const auto source = make_source(both.source);
+  CHECK(source->power_w() == 5);
+  CHECK(source->position_mm() == Vector3(0, 5, 35));
+  const std::string text = scene_text(both);
+  CHECK_THAT(text, Catch::Contains("[sources.lamp]") && Catch::Contains("\"several\""));
+  CHECK(scene_text(make_scene(Settings::parse(text, "test.toml", scene_keys()))) == text);
+  SourceSpec brighter = both.source;
+  brighter.power_w *= 2;
+  CHECK(make_source(brighter)->power_w() == 10);
+  CHECK_THROWS_WITH(scene(lamp + "source.power = 1\n"), Catch::Contains("source.power"));
+  CHECK_THROWS_WITH(scene(lamp + "source.kind = \"disc\"\n"), Catch::Contains("source.kind"));
+  CHECK_THROWS_WITH(scene("source.kind = \"several\"\n"), Catch::Contains("source.kind"));
+  CHECK_THROWS_WITH(scene(lamp + "sources.b.kind = \"several\"\nsources.b.power = 1\n"),
+                    Catch::Contains("sources.b.kind"));
+  CHECK_THROWS_WITH(scene(lamp + "sources.b.flux = 1\n"), Catch::Contains("mixes"));
+  CHECK_THROWS_WITH(scene(lamp + "sources.b.radius = 1\n"), Catch::Contains("sources.b.radius"));
+  CHECK_THROWS_WITH(scene(lamp + "sources.b.position = [0, 0, 1]\n"), Catch::Contains("sources.b.power"));
+  CHECK_THROWS_WITH(scene(lamp + "sources.b.colour = 1\n"), Catch::Contains("colour"));
+}
+
 TEST_CASE("keys that do not belong to the source are refused") {
   CHECK_THROWS_WITH(scene_of("radius = 1"), Catch::Contains("source.radius"));
   CHECK_THROWS_WITH(scene_of("axis = [0, 0, 1]"), Catch::Contains("source.axis"));
