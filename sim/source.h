@@ -121,7 +121,7 @@ class PointSource final : public MappedSource {
   double tilt_rad() const override;
   double intensity_w_per_sr(const Vector3& direction) const override;
   std::string words() const override;
-  std::string left_out() const override { return "the scene has no extended source"; }
+  std::string left_out() const override { return "a point has none"; }
   ProjectionMap directions_to(const Profile& mirror) const override;
   ProjectionMap all_directions() const override;
   double power_into_w(const ProjectionMap& map) const override;
