@@ -25,6 +25,7 @@ namespace {
 
 struct ChunkResult {
   std::vector<Crossing> crossings;
+  std::vector<Vector3> departures;  ///< directions of photons that left, where these are asked for
   FlightCounts counts;
 };
 
@@ -37,6 +38,7 @@ struct Flight {
   const std::optional<Opening>& opening;
   std::uint64_t key;
   double lift_mm;
+  bool departs = false;  ///< there is no near field; where photons go is what is asked for
 };
 
 /// Traces one chunk of photons with a probe of its own, wave after wave: all photons on their way are
@@ -46,7 +48,7 @@ class PhotonTracer {
   explicit PhotonTracer(Flight flight)
       : flight_(flight),
         field_(flight.scene.near_field),
-        direct_too_(flight.scene.source.is_sampled()),
+        direct_too_(flight.scene.source.is_sampled() || flight.departs),
         probe_(flight.scene.reflector.probe()) {}
 
   ChunkResult trace(std::uint64_t first, std::uint64_t last) {
@@ -132,11 +134,14 @@ class PhotonTracer {
   /// Takes a photon to its next surface.
   /// @out its fate, or nothing when it goes on
   std::optional<Fate> advance(Photon& photon, const std::optional<Hit>& hit) {
-    const auto arrival = meet_plane(photon, hit ? hit->distance_mm : HUGE_VAL);
+    const auto arrival =
+        flight_.departs ? std::nullopt : meet_plane(photon, hit ? hit->distance_mm : HUGE_VAL);
     const bool stops = arrival && field_.material() && field_.contains(arrival->plane_mm);
     if (arrival && (photon.touched || direct_too_)) record(photon, *arrival);
-    if (!stops && !hit)
+    if (!stops && !hit) {
+      if (flight_.departs) result_.departures.push_back(photon.ray.direction);
       return !photon.touched ? Fate::missed : photon.received ? Fate::received : Fate::escaped;
+    }
     if (photon.interactions == flight_.options.most_interactions) return Fate::cut_off;
     ++photon.interactions;
     ++result_.counts.interactions;
@@ -269,7 +274,7 @@ struct PhotonFlights::Parts {
     cosines_and_sines(row(azimuth), row(azimuth_cosine), row(azimuth_sine));
     PlaneTracer tracer(*plane, options.most_interactions, key);
     tracer.trace(first, {row(cosine), row(azimuth_cosine), row(azimuth_sine)});
-    return {std::move(tracer.crossings()), tracer.counts()};
+    return {std::move(tracer.crossings()), {}, tracer.counts()};
   }
 };
 
@@ -328,6 +333,29 @@ FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossing
   } while (begin < chunks(photons));
 
   return counts.totals(photons, parts_->emission->power_w(), first_share(parts_->scene));
+}
+
+FlightTotals depart(const Scene& scene, const PhotonOptions& options, const TakeDepartures& take) {
+  check(options);
+  if (auto defect = find_defect(scene.mirror)) {
+    defect->where = "mirror";
+    throw InputError(std::move(*defect));
+  }
+  const auto emission = scene.source.emission();
+  const auto opening = Opening::of(scene.reflector.profile());
+  const RecordedArea nowhere = RecordedArea::about(scene.near_field, 0);
+  const std::uint64_t key = photon_key(options.seed, options.stream);
+  const double lift_mm = Tolerance::for_scale(scene.reflector.profile().diagonal_mm()).lift_mm;
+  SharedCounts counts;
+  side_by_side(PhotonFlights::chunks(options.photons), [&](std::uint64_t i) {
+    give_up_if_stopped(options);
+    const std::uint64_t first = i * photons_of_a_chunk;
+    PhotonTracer tracer({scene, options, *emission, nowhere, opening, key, lift_mm, true});
+    const ChunkResult chunk = tracer.trace(first, std::min(first + photons_of_a_chunk, options.photons));
+    counts.add(chunk.counts);
+    take(i, chunk.departures);
+  });
+  return counts.totals(options.photons, emission->power_w(), 1);
 }
 
 StoredChunk store(std::span<const Crossing> crossings, const RecordedArea& area) {

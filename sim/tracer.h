@@ -151,6 +151,15 @@ class PhotonFlights {
   std::unique_ptr<Parts> parts_;
 };
 
+/// Takes the directions in which photons of one chunk leave for good; called for every chunk once, from
+/// several threads and in any order.
+using TakeDepartures = std::function<void(std::uint64_t chunk, std::span<const Vector3> directions)>;
+
+/// All of the source's photons through the mirror and away, as if there were no near field.
+/// @out   photon_power_w: of each that leaves; nothing is received
+/// @fails as PhotonFlights::fly
+FlightTotals depart(const Scene& scene, const PhotonOptions& options, const TakeDepartures& take);
+
 /// First pass of the photon map: emission towards the mirror, Russian roulette at every surface, crossings of
 /// the near field's plane recorded once the mirror has been touched, out to `margin_mm` beyond the patch of
 /// an invisible near field.

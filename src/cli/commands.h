@@ -50,6 +50,7 @@ ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions&
 ExitCode explain_command(const CommonOptions& options);
 ExitCode tradeoff_command(const CommonOptions& options);
 ExitCode sensitivity_command(const CommonOptions& options);
+ExitCode intensity_command(const CommonOptions& options);
 ExitCode study_command(const CommonOptions& options);
 ExitCode profile_command(const CommonOptions& options, const ProfileOptions& more);
 ExitCode export_command(const CommonOptions& options, const ExportCommandOptions& more);

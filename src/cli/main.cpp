@@ -111,6 +111,12 @@ struct Parser {
              ->footer(
                  "Example: catoptric sensitivity data/paper/paraboloid.toml --set sensitivity.allowed=0.05"),
         common, "SCENE.toml");
+    add_common(
+        *app.add_subcommand("intensity",
+                            "The luminaire from afar: intensity, beam angles, flux by zone, IES and EULUMDAT")
+             ->footer(
+                 "Example: catoptric intensity data/examples/led_downlight.toml --set model.photons=1000000"),
+        common, "SCENE.toml");
     add_common(*app.add_subcommand("study", "Runs a list of variations of a scene and prints one table")
                     ->footer("Example: catoptric study data/paper/table2.toml --out out/table2"),
                common, "STUDY.toml");
@@ -123,6 +129,7 @@ struct Parser {
     if (app.got_subcommand("landscape")) return landscape_command(common, landscape);
     if (app.got_subcommand("tradeoff")) return tradeoff_command(common);
     if (app.got_subcommand("sensitivity")) return sensitivity_command(common);
+    if (app.got_subcommand("intensity")) return intensity_command(common);
     if (app.got_subcommand("profile")) return profile_command(common, profile);
     if (app.got_subcommand("export")) return export_command(common, shape);
     return study_command(common);

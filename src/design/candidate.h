@@ -34,7 +34,8 @@ struct SourceSpec {
   std::shared_ptr<const IntensityTable> table = nullptr;  ///< of a point with measured intensity
   std::shared_ptr<const sim::RayBundle> rays = nullptr;   ///< of a ray file
   LightQuantity quantity = LightQuantity::radiant;
-  std::vector<SourceSpec> parts = {};  ///< of several: their places from `position_mm`, their shares of the power
+  std::vector<SourceSpec> parts =
+      {};  ///< of several: their places from `position_mm`, their shares of the power
 };
 
 /// The source as the light room has it.

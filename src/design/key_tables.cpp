@@ -181,6 +181,14 @@ const std::vector<Key>& scene_table() {
       {.path = "sensitivity.allowed", .type = number, .least = 1e-6, .greatest = 1, .standard = "0.02", .meaning = "change of the field that each tolerance of the maker's table may cost: root mean square over the samples, relative to the field's own"},
       {.path = "sensitivity.modes", .type = integer, .least = 0, .greatest = 12, .standard = "4", .meaning = "profile errors are cosines over the generatrix' length, of 0 to so many half waves"},
 
+      {.path = "intensity.gamma_step", .type = number, .least = 0.01, .greatest = 30, .standard = "1.0", .meaning = "command intensity: step of the angle to the luminaire's axis, degrees"},
+      {.path = "intensity.c_step", .type = number, .least = 0.1, .greatest = 90, .standard = "15.0", .meaning = "step of the angle about it, degrees; of no use where the light is alike all round"},
+      {.path = "intensity.luminaire", .type = text, .standard = "\"\"", .meaning = "the luminaire's name in photometric files; the scene's title when empty"},
+      {.path = "intensity.manufacturer", .type = text, .standard = "\"\"", .meaning = "who makes it, in photometric files"},
+      {.path = "intensity.lamp", .type = text, .standard = "\"\"", .meaning = "its lamp, in photometric files"},
+      {.path = "intensity.issue_date", .type = text, .standard = "\"\"", .meaning = "date of issue in photometric files, as 2026-05-17; not stated when empty, so that a run gives the same files on any day"},
+      {.path = "intensity.input_power", .type = number, .least = 0, .greatest = 1e9, .standard = "0.0", .meaning = "electric power it takes, W, in photometric files; 0: not stated"},
+
       {.path = "export.unit", .type = choice, .choices = {"mm", "cm", "m", "in"}, .standard = "\"mm\"", .meaning = "unit of length inside exchange files"},
       {.path = "export.step_schema", .type = choice, .choices = {"ap203", "ap214", "ap242"}, .standard = "\"ap214\"", .meaning = "STEP application protocol"},
       {.path = "export.iges_mode", .type = choice, .choices = {"faces", "brep"}, .standard = "\"faces\"", .meaning = "IGES entities: trimmed surfaces (144) or boundary representation (186)"},

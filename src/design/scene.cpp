@@ -327,6 +327,10 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
               .tradeoff = tradeoff(settings),
               .sensitivity = {*settings.number("sensitivity.allowed"),
                               static_cast<int>(*settings.integer("sensitivity.modes"))},
+              .intensity = {*settings.number("intensity.gamma_step"), *settings.number("intensity.c_step"),
+                            *settings.text("intensity.luminaire"), *settings.text("intensity.manufacturer"),
+                            *settings.text("intensity.lamp"), *settings.text("intensity.issue_date"),
+                            *settings.number("intensity.input_power")},
               .export_options = export_options(settings, unit_mm)};
   scene.settings = std::move(settings);
   return scene;

@@ -113,6 +113,13 @@ struct SensitivitySpec {
 };
 
 /// A scene, checked, in mm, W and rad; variables keep the scene's unit, which is what people read and write.
+/// How the luminaire's intensity is tabulated, and what its photometric files say beside it.
+struct IntensitySpec {
+  double gamma_step_deg = 1, c_step_deg = 15;
+  std::string luminaire, manufacturer, lamp, issue_date;
+  double input_w = 0;
+};
+
 struct Scene {
   Settings settings;  ///< every key with its value, defaults included: what scene.toml holds
   std::string title;
@@ -135,6 +142,7 @@ struct Scene {
   std::optional<LandscapeSpec> landscape;
   TradeoffSpec tradeoff;
   SensitivitySpec sensitivity;
+  IntensitySpec intensity;
   cad::ExportOptions export_options;
 
   /// A mirror of this shape in the scene as it is written.

@@ -20,6 +20,12 @@ void RunFolder::table(const std::string& name, const Table& content) {
   written_.names.push_back(name);
 }
 
+void RunFolder::made(const std::string& name,
+                     const std::function<void(const std::filesystem::path&)>& write) {
+  write(path_ / name);
+  written_.names.push_back(name);
+}
+
 void RunFolder::exchange(const std::string& name, const Profile& profile, const cad::ExportOptions& options) {
   cad::export_reflector(profile, path_ / name, options);
   written_.names.push_back(name);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ class RunFolder {
 
   void text(const std::string& name, const std::string& content);
   void table(const std::string& name, const Table& content);
+  /// A file that `write` makes whole or not at all.
+  void made(const std::string& name, const std::function<void(const std::filesystem::path&)>& write);
+  void note(std::string sentence) { written_.notes.push_back(std::move(sentence)); }
   /// @fails CadError when the file lost something
   void exchange(const std::string& name, const Profile& profile, const cad::ExportOptions& options);
   /// Draws into the subfolder `figures`; a figure that cannot be drawn is a note.

@@ -84,3 +84,42 @@ TEST_CASE("a scene is in watts or in lumens, and never in both") {
   refused("source.flux = 1\nvariables.\"source.power\" = {step = 1, lower = 1, upper = 2}", "lm");
   refused("source.power = 1\nvariables.\"source.flux\" = {step = 1, lower = 1, upper = 2}", "W");
 }
+
+TEST_CASE("intensity writes what lighting engineers read, and what it writes is a source of the same light") {
+  const TemporaryFolder folder;
+  write_whole(folder / "lamp.toml",
+              scene_text("source.flux = 500\nsource.kind = \"disc\"\nsource.radius = 1"));
+  const Ended ended =
+      program_run("intensity '" + (folder / "lamp.toml").string() + "' --out '" + (folder / "out").string() +
+                  "' --set intensity.luminaire=Spot --set model.photons=200000");
+  INFO(ended.output);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.output, Contains("beam angle") && Contains("efficiency") && Contains("cd"));
+  const json result = parsed(folder / "out" / "intensity.json");
+  CHECK(result["flux"]["unit"] == "lm");
+  CHECK(result["peak"]["value"] > 100);
+  CHECK_THAT(read_whole(folder / "out" / "luminaire.ies"),
+             Contains("IES:LM-63-2019") && Contains("Spot") && Contains("1.00010"));
+  const std::string bare =
+      "reflector.points = [[0, 10], [0.1, 10], [0.2, 9.9]]\nnear_field.radius = 5\nunit = \"cm\"\n";
+  for (const char* name : {"luminaire.ies", "luminaire.ldt"}) {
+    write_whole(folder / "again.toml",
+                bare + "source.kind = \"intensity\"\nsource.axis = [0, 0, -1]\nsource.file = \"" +
+                    (folder / "out" / name).string() + "\"\n");
+    const Ended again = program_run("intensity '" + (folder / "again.toml").string() + "' --out '" +
+                                    (folder / "again").string() + "' --set model.photons=200000");
+    INFO(again.output);
+    REQUIRE(again.code == 0);
+    const json second = parsed(folder / "again" / "intensity.json");
+    CHECK(second["flux"]["value"].get<double>() ==
+          Catch::Detail::Approx(result["flux"]["value"].get<double>()).epsilon(1e-3));
+    CHECK(second["angles"][0]["beam"].get<double>() ==
+          Catch::Detail::Approx(result["angles"][0]["beam"].get<double>()).epsilon(0.02));
+  }
+  write_whole(folder / "watts.toml", scene_text("source.power = 5"));
+  const Ended radiant = program_run("intensity '" + (folder / "watts.toml").string() + "' --out '" +
+                                    (folder / "w").string() + "'");
+  CHECK(radiant.code == 0);
+  CHECK_FALSE(std::filesystem::exists(folder / "w" / "luminaire.ies"));
+  CHECK_THAT(radiant.output, Contains("W/sr"));
+}
