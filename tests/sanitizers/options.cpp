@@ -7,6 +7,10 @@ extern "C" const char* __asan_default_options() {
 
 extern "C" const char* __ubsan_default_options() { return "print_stacktrace=1"; }
 
+// With a shorter history a long run forgets who touched a place before. What is left out below is then not
+// recognised, and one run of many fails (seen on a machine with much other work).
+extern "C" const char* __tsan_default_options() { return "history_size=7"; }
+
 // Debian's libtbb is not instrumented: it hands tasks from thread to thread by means the sanitizer cannot
 // see, so that the fields of its own tasks look shared, and so do the references that side_by_side() gives to
 // a task. Only these are left out: by the file that touches them (race_top: deeper frames do not count), and
