@@ -114,8 +114,8 @@ struct Parser {
     add_common(
         *app.add_subcommand("intensity",
                             "The luminaire from afar: intensity, beam angles, flux by zone, IES and EULUMDAT")
-             ->footer(
-                 "Example: catoptric intensity data/examples/led_downlight.toml --set model.photons=1000000"),
+             ->footer("Example: catoptric intensity data/examples/uniform_disc.toml --set "
+                      "intensity.gamma_step=0.5"),
         common, "SCENE.toml");
     add_common(*app.add_subcommand("study", "Runs a list of variations of a scene and prints one table")
                     ->footer("Example: catoptric study data/paper/table2.toml --out out/table2"),

@@ -18,7 +18,7 @@ TEST_CASE("help and version are no errors, and every command shows an example") 
   CHECK(keys.code == 0);
   CHECK_THAT(keys.output, Contains("model.photons\n") && Contains("100000 when left out"));
   for (const char* command : {"design", "simulate", "explain", "landscape", "profile", "export", "tradeoff",
-                              "sensitivity", "study"}) {
+                              "sensitivity", "intensity", "study"}) {
     const Ended help = program_run(std::string(command) + " --help");
     INFO(help.output);
     CHECK(help.code == 0);
