@@ -45,16 +45,8 @@ std::string LambertianCylinder::words() const {
                      2 * half_length_mm_);
 }
 
-ProjectionMap LambertianCylinder::directions_to(const Profile& mirror) const {
-  return ProjectionMap::towards(mirror, {center_mm(), extent_mm(), CosineLaw::sine(), frame().col(2), false});
-}
-
-ProjectionMap LambertianCylinder::all_directions() const {
-  return ProjectionMap::all_lit({center_mm(), extent_mm(), CosineLaw::sine(), frame().col(2), false});
-}
-
-double LambertianCylinder::power_into_w(const ProjectionMap& map) const {
-  return map.light_sr() / CosineLaw::sine().total_sr() * power_w();
+Emitter LambertianCylinder::emitter() const {
+  return {center_mm(), extent_mm(), CosineLaw::sine(), frame().col(2), false};
 }
 
 LambertianSurface::Place LambertianCylinder::place(double first, double second) const {

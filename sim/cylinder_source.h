@@ -17,16 +17,14 @@ class LambertianCylinder final : public LambertianSurface {
   std::string words() const override;
   std::string left_out() const override { return "the cylinder itself stands in no light's way"; }
 
-  ProjectionMap directions_to(const Profile& mirror) const override;
-  ProjectionMap all_directions() const override;
-  double power_into_w(const ProjectionMap& map) const override;
+  Emitter emitter() const override;
 
   /// All of the side's light in one direction comes evenly from the rectangle that it is seen as.
   /// @in    numbers: two for the direction, two for the place
   Ray emit(const ProjectionMap& map, const std::array<double, 4>& numbers) const override;
 
   /// An integral round the cylinder of the part of it that the element sees, along the cylinder in closed
-  /// form; to 1e-9. 0 within the cylinder.
+  /// form; asked for to 1e-10. 0 within the cylinder.
   double unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const override;
 
  private:

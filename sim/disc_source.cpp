@@ -12,10 +12,6 @@
 namespace catoptric::sim {
 namespace {
 
-Emitter emitter_of(const Vector3& center_mm, double radius_mm, const Vector3& normal) {
-  return {center_mm, radius_mm, CosineLaw::lambert(), normal};
-}
-
 /// Lambert's formula takes the angle under which each piece of the contour is seen, times how far its plane
 /// turns to the normal.
 /// @in    at: from the element to a place of the rim; step: its derivative by the angle
@@ -41,16 +37,8 @@ std::string LambertianDisc::words() const {
   return fmt::format("a Lambertian disc of radius {:g} mm, lit on the side of its normal", radius_mm_);
 }
 
-ProjectionMap LambertianDisc::directions_to(const Profile& mirror) const {
-  return ProjectionMap::towards(mirror, emitter_of(center_mm(), radius_mm_, frame().col(2)));
-}
-
-ProjectionMap LambertianDisc::all_directions() const {
-  return ProjectionMap::all_lit(emitter_of(center_mm(), radius_mm_, frame().col(2)));
-}
-
-double LambertianDisc::power_into_w(const ProjectionMap& map) const {
-  return map.light_sr() / CosineLaw::lambert().total_sr() * power_w();
+Emitter LambertianDisc::emitter() const {
+  return {center_mm(), radius_mm_, CosineLaw::lambert(), frame().col(2)};
 }
 
 LambertianSurface::Place LambertianDisc::place(double first, double second) const {

@@ -18,9 +18,7 @@ class LambertianDisc final : public LambertianSurface {
 
   /// Directions about the normal, the same for all points of the disc: what any of them may see of the
   /// mirror. Photons whose own point sees nothing there are counted as missed.
-  ProjectionMap directions_to(const Profile& mirror) const override;
-  ProjectionMap all_directions() const override;
-  double power_into_w(const ProjectionMap& map) const override;
+  Emitter emitter() const override;
   /// @in    numbers: two for the direction, two for the place
   Ray emit(const ProjectionMap& map, const std::array<double, 4>& numbers) const override;
 

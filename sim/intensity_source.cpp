@@ -51,18 +51,4 @@ std::unique_ptr<Emission> IntensitySource::emission() const {
   return std::make_unique<IntensityEmission>(position_mm_, frame_, *table_, nullptr, power_w_);
 }
 
-double IntensitySource::unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const {
-  const Vector3 way = position_mm_ - point_mm;
-  const double height_mm = way.dot(normal);
-  if (!(height_mm > 0)) return 0;
-  const double distance_mm = way.norm();
-  return intensity_w_per_sr(-way / distance_mm) * (height_mm / distance_mm) / distance_mm / distance_mm;
-}
-
-double IntensitySource::direct_w_per_mm2(const Vector3& point_mm, const Vector3& normal, Probe& mirror,
-                                         double lift_mm) const {
-  const double unhindered = unhindered_w_per_mm2(point_mm, normal);
-  return unhindered > 0 && mirror.blocks(position_mm_, point_mm, lift_mm) ? 0 : unhindered;
-}
-
 }  // namespace catoptric::sim

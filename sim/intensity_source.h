@@ -27,9 +27,13 @@ class IntensitySource final : public Source {
   std::string left_out() const override { return "the source is measured from afar: its size is not known"; }
   std::unique_ptr<Emission> emission_to(const Profile& mirror) const override;
   std::unique_ptr<Emission> emission() const override;
-  double unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const override;
+  double unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const override {
+    return point_irradiance_w_per_mm2(*this, point_mm, normal);
+  }
   double direct_w_per_mm2(const Vector3& point_mm, const Vector3& normal, Probe& mirror,
-                          double lift_mm) const override;
+                          double lift_mm) const override {
+    return point_direct_w_per_mm2(*this, point_mm, normal, mirror, lift_mm);
+  }
 
  private:
   Vector3 position_mm_;

@@ -58,17 +58,8 @@ std::string LambertianRectangle::words() const {
                      height_mm_);
 }
 
-ProjectionMap LambertianRectangle::directions_to(const Profile& mirror) const {
-  return ProjectionMap::towards(mirror,
-                                {center_mm(), half_diagonal_mm_, CosineLaw::lambert(), frame().col(2)});
-}
-
-ProjectionMap LambertianRectangle::all_directions() const {
-  return ProjectionMap::all_lit({center_mm(), half_diagonal_mm_, CosineLaw::lambert(), frame().col(2)});
-}
-
-double LambertianRectangle::power_into_w(const ProjectionMap& map) const {
-  return map.light_sr() / CosineLaw::lambert().total_sr() * power_w();
+Emitter LambertianRectangle::emitter() const {
+  return {center_mm(), half_diagonal_mm_, CosineLaw::lambert(), frame().col(2)};
 }
 
 LambertianSurface::Place LambertianRectangle::place(double first, double second) const {

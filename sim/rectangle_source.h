@@ -23,9 +23,7 @@ class LambertianRectangle final : public LambertianSurface {
   std::string left_out() const override { return "the rectangle itself stands in no light's way"; }
 
   /// Directions about the normal, the same for all points of the rectangle.
-  ProjectionMap directions_to(const Profile& mirror) const override;
-  ProjectionMap all_directions() const override;
-  double power_into_w(const ProjectionMap& map) const override;
+  Emitter emitter() const override;
   /// @in    numbers: two for the direction, two for the place
   Ray emit(const ProjectionMap& map, const std::array<double, 4>& numbers) const override;
 

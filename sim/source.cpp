@@ -40,6 +40,16 @@ std::unique_ptr<Emission> MappedSource::emission() const {
   return std::make_unique<MapEmission>(*this, all_directions());
 }
 
+ProjectionMap MappedSource::directions_to(const Profile& mirror) const {
+  return ProjectionMap::towards(mirror, emitter());
+}
+
+ProjectionMap MappedSource::all_directions() const { return ProjectionMap::all_lit(emitter()); }
+
+double MappedSource::power_into_w(const ProjectionMap& map) const {
+  return map.light_sr() / emitter().law.total_sr() * power_w();
+}
+
 void check_source(const Vector3& position_mm, double power_w, const Vector3& axis) {
   const UntrappedFloats untrapped;  // NaN is one of the things refused
   if (!position_mm.allFinite())
@@ -81,35 +91,25 @@ std::string PointSource::words() const {
   return law_.is_even() ? "a point" : fmt::format("a point with intensity like cosine^{:g}", law_.exponent);
 }
 
-ProjectionMap PointSource::directions_to(const Profile& mirror) const {
-  return ProjectionMap::towards(mirror, Emitter{position_mm_, 0, law_, axis_});
-}
-
-ProjectionMap PointSource::all_directions() const {
-  return ProjectionMap::all_lit(Emitter{position_mm_, 0, law_, axis_});
-}
-
-double PointSource::power_into_w(const ProjectionMap& map) const {
-  return map.light_sr() / law_.total_sr() * power_w_;
-}
+Emitter PointSource::emitter() const { return {position_mm_, 0, law_, axis_}; }
 
 Ray PointSource::emit(const ProjectionMap& map, const std::array<double, 4>& numbers) const {
   return {position_mm_, map.direction(numbers[0], numbers[1])};
 }
 
-double PointSource::unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const {
-  const Vector3 way = position_mm_ - point_mm;
+double point_irradiance_w_per_mm2(const Source& point, const Vector3& place_mm, const Vector3& normal) {
+  const Vector3 way = point.position_mm() - place_mm;
   const double height_mm = way.dot(normal);
   if (!(height_mm > 0)) return 0;
   const double distance_mm = way.norm();
   // Divided step by step: the cube of a distance of kilometres or nanometres would leave the range early.
-  return intensity_w_per_sr(-way / distance_mm) * (height_mm / distance_mm) / distance_mm / distance_mm;
+  return point.intensity_w_per_sr(-way / distance_mm) * (height_mm / distance_mm) / distance_mm / distance_mm;
 }
 
-double PointSource::direct_w_per_mm2(const Vector3& point_mm, const Vector3& normal, Probe& mirror,
-                                     double lift_mm) const {
-  const double unhindered = unhindered_w_per_mm2(point_mm, normal);
-  return unhindered > 0 && mirror.blocks(position_mm_, point_mm, lift_mm) ? 0 : unhindered;
+double point_direct_w_per_mm2(const Source& point, const Vector3& place_mm, const Vector3& normal,
+                              Probe& mirror, double lift_mm) {
+  const double unhindered = point_irradiance_w_per_mm2(point, place_mm, normal);
+  return unhindered > 0 && mirror.blocks(point.position_mm(), place_mm, lift_mm) ? 0 : unhindered;
 }
 
 }  // namespace catoptric::sim

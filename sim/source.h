@@ -15,6 +15,7 @@ class Profile;
 namespace catoptric::sim {
 
 class ProjectionMap;
+struct Emitter;
 
 /// Photons of a source on their way to what they are sent to. All of them carry the same power, so that a
 /// photon map needs no power per photon: where a source is brighter, more photons come from.
@@ -83,6 +84,13 @@ class Source {
                                   double lift_mm) const = 0;
 };
 
+/// Direct light of a source that is seen as a point: intensity times cosine over the square of the distance.
+/// @from  paper eq. 13, for any distance and tilt
+double point_irradiance_w_per_mm2(const Source& point, const Vector3& place_mm, const Vector3& normal);
+/// The same with occlusion by the mirror.
+double point_direct_w_per_mm2(const Source& point, const Vector3& place_mm, const Vector3& normal,
+                              Probe& mirror, double lift_mm);
+
 /// A source whose every place shines by one law of the cosine to one axis, so that directions can be drawn
 /// before places.
 class MappedSource : public Source {
@@ -90,13 +98,16 @@ class MappedSource : public Source {
   std::unique_ptr<Emission> emission_to(const Profile& mirror) const final;
   std::unique_ptr<Emission> emission() const final;
 
+  /// Where it is, and by which law all of its places shine.
+  virtual Emitter emitter() const = 0;
+
   /// The directions photons are sent to: those in which a mirror may be met, or all that the source lights.
-  virtual ProjectionMap directions_to(const Profile& mirror) const = 0;
-  virtual ProjectionMap all_directions() const = 0;
+  virtual ProjectionMap directions_to(const Profile& mirror) const;
+  ProjectionMap all_directions() const;
 
   /// The part of the power that goes into the directions of `map`.
   /// @in    a map of this source
-  virtual double power_into_w(const ProjectionMap& map) const = 0;
+  double power_into_w(const ProjectionMap& map) const;
 
   virtual std::size_t emission_numbers() const { return 4; }
 
@@ -122,15 +133,16 @@ class PointSource final : public MappedSource {
   double intensity_w_per_sr(const Vector3& direction) const override;
   std::string words() const override;
   std::string left_out() const override { return "a point has none"; }
-  ProjectionMap directions_to(const Profile& mirror) const override;
-  ProjectionMap all_directions() const override;
-  double power_into_w(const ProjectionMap& map) const override;
+  Emitter emitter() const override;
   std::size_t emission_numbers() const override { return 2; }
   Ray emit(const ProjectionMap& map, const std::array<double, 4>& numbers) const override;
-  /// @from  paper eq. 13, for any distance and tilt: intensity cos / distance^2
-  double unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const override;
+  double unhindered_w_per_mm2(const Vector3& point_mm, const Vector3& normal) const override {
+    return point_irradiance_w_per_mm2(*this, point_mm, normal);
+  }
   double direct_w_per_mm2(const Vector3& point_mm, const Vector3& normal, Probe& mirror,
-                          double lift_mm) const override;
+                          double lift_mm) const override {
+    return point_direct_w_per_mm2(*this, point_mm, normal, mirror, lift_mm);
+  }
 
   const CosineLaw& law() const { return law_; }
   const Vector3& axis() const { return axis_; }

@@ -10,14 +10,6 @@
 #include "sim/projection_map.h"
 
 namespace catoptric::sim {
-namespace {
-
-Emitter emitter_of(const Vector3& center_mm, double radius_mm) {
-  return {center_mm, radius_mm, {}, Vector3::UnitZ(), false};
-}
-
-}  // namespace
-
 LambertianSphere::LambertianSphere(const Vector3& center_mm, double radius_mm, double power_w)
     : LambertianSurface(center_mm, Vector3::UnitZ(), power_w), radius_mm_(radius_mm) {
   require_size(radius_mm, "radius");
@@ -29,17 +21,7 @@ std::string LambertianSphere::words() const {
   return fmt::format("a Lambertian sphere of radius {:g} mm", radius_mm_);
 }
 
-ProjectionMap LambertianSphere::directions_to(const Profile& mirror) const {
-  return ProjectionMap::towards(mirror, emitter_of(center_mm(), radius_mm_));
-}
-
-ProjectionMap LambertianSphere::all_directions() const {
-  return ProjectionMap::all_lit(emitter_of(center_mm(), radius_mm_));
-}
-
-double LambertianSphere::power_into_w(const ProjectionMap& map) const {
-  return map.light_sr() / CosineLaw().total_sr() * power_w();
-}
+Emitter LambertianSphere::emitter() const { return {center_mm(), radius_mm_, {}, Vector3::UnitZ(), false}; }
 
 LambertianSurface::Place LambertianSphere::place(double first, double second) const {
   const double z = 1 - 2 * first, r = std::sqrt(std::max(0.0, (1 - z) * (1 + z)));

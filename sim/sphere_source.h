@@ -15,9 +15,7 @@ class LambertianSphere final : public LambertianSurface {
   std::string words() const override;
   std::string left_out() const override { return "the sphere itself stands in no light's way"; }
 
-  ProjectionMap directions_to(const Profile& mirror) const override;
-  ProjectionMap all_directions() const override;
-  double power_into_w(const ProjectionMap& map) const override;
+  Emitter emitter() const override;
 
   /// All of a sphere's light in one direction comes evenly from the disc that it is seen as.
   /// @in    numbers: two for the direction, two for the place

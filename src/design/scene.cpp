@@ -293,6 +293,13 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
   const LengthUnit unit = scene_unit(settings);
   const double unit_mm = millimetres_per(unit);
   const SourceSpec source = source_spec(settings, unit_mm);
+  if (make_source(source)->is_sampled() &&
+      *settings.integer("model.replicates") > static_cast<std::int64_t>(sim::parts_of_a_bundle))
+    throw settings.error("model.replicates", "is more than a ray file's independent parts",
+                         fmt::format("its rays are taken in {} parts, and replicates that share rays would "
+                                     "understate the noise",
+                                     sim::parts_of_a_bundle),
+                         "8, with more photons");
   Profile base = profile(settings, "reflector", unit_mm);
   sim::NearField field = near_field(settings, unit_mm);
   TargetSpec desired = target(settings, unit_mm, field);

@@ -162,8 +162,7 @@ class Careless final : public MappedSource {
   std::string words() const override { return disc_.words(); }
   std::string left_out() const override { return disc_.left_out(); }
   ProjectionMap directions_to(const Profile&) const override { return disc_.all_directions(); }
-  ProjectionMap all_directions() const override { return disc_.all_directions(); }
-  double power_into_w(const ProjectionMap& map) const override { return disc_.power_into_w(map); }
+  Emitter emitter() const override { return disc_.emitter(); }
   Ray emit(const ProjectionMap& map, const std::array<double, 4>& numbers) const override {
     return disc_.emit(map, numbers);
   }

@@ -101,6 +101,8 @@ TEST_CASE("a ray file makes the source, placed and turned, with its own light or
   const std::string text = scene_text(own);
   CHECK(scene_text(make_scene(Settings::parse(text, "elsewhere/test.toml", scene_keys()))) == text);
   CHECK_THROWS_WITH(scene("source.exponent = 1\n"), Catch::Contains("source.exponent"));
+  CHECK_NOTHROW(scene("model.replicates = 8\n"));
+  CHECK_THROWS_WITH(scene("model.replicates = 9\n"), Catch::Contains("model.replicates"));
   CHECK_THROWS_WITH(scene("start = \"tailored\"\ntarget.kind = \"uniform\"\ntarget.radius = 3\n"
                           "target.irradiance = 1\n"),
                     Catch::Contains("source.kind"));
