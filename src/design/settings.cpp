@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "design/toml_values.h"
 
 namespace catoptric::design {
