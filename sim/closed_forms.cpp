@@ -96,8 +96,9 @@ std::optional<ClosedForm> sphere(const Scene& scene, std::span<const FieldSample
 std::optional<ClosedForm> closed_form(const Scene& scene, std::span<const FieldSample> samples) {
   const Vector3& source_mm = scene.source.position_mm();
   const Profile& profile = scene.reflector.profile();
-  if (scene.source.is_sampled() || scene.source.extent_mm() > 0 || source_mm.x() != 0 || source_mm.y() != 0 ||
-      scene.mirror.transmittance > 0 || scene.near_field.material() || !Opening::of(profile))
+  if (!scene.is_bare() || scene.source.is_sampled() || scene.source.extent_mm() > 0 || source_mm.x() != 0 ||
+      source_mm.y() != 0 || scene.mirror.transmittance > 0 || scene.near_field.material() ||
+      !Opening::of(profile))
     return std::nullopt;
   if (auto form = paraboloid(scene, samples)) return form;
   return sphere(scene, samples);

@@ -244,6 +244,7 @@ class Meetings {
 
 /// What a grid of rays cannot tell.
 std::optional<std::string> untold(const Scene& scene, UnknownBreaks unknown) {
+  if (!scene.is_bare()) return "other things stand about, which may shade";
   if (scene.source.is_sampled()) return "the source is known by its rays alone";
   if (scene.source.extent_mm() > 0) return "the source is extended";
   if (dynamic_cast<const PointSource*>(&scene.source) == nullptr)

@@ -14,10 +14,10 @@ namespace {
 /// beyond: across r_s = (1 - N^2) / (c + w)^2, along r_p = r_s (c w - s^2) / (c w + s^2). Nothing cancels in
 /// r_s, and no square of N is formed, which might overflow.
 template <typename Index>
-double mean_reflectance(double c, double s_squared, const Index& n, const Index& w) {
+PolarisedReflectance reflectances(double c, double s_squared, const Index& n, const Index& w) {
   const double across = (std::abs(1.0 - n) / std::abs(c + w)) * (std::abs(1.0 + n) / std::abs(c + w));
   const double along = across * (std::abs(c * w - s_squared) / std::abs(c * w + s_squared));
-  return std::min(1.0, 0.5 * (across * across + along * along));
+  return {across * across, along * along};
 }
 
 /// N times the cosine beyond the boundary, by whichever of sine and cosine before it is the smaller, which is
@@ -31,13 +31,17 @@ double depth_beyond(double cosine, double sine, double n) {
 
 }  // namespace
 
-double dielectric_reflectance(double cosine, double index_ratio) {
+PolarisedReflectance polarised_reflectance(double cosine, double index_ratio) {
   CATOPTRIC_EXPECTS(cosine >= 0 && cosine <= 1);
   CATOPTRIC_EXPECTS(index_ratio > 0 && std::isfinite(index_ratio));
-  if (index_ratio == 1) return 0;
+  if (index_ratio == 1) return {0, 0};
   const double s_squared = (1 - cosine) * (1 + cosine);
   const double depth = depth_beyond(cosine, std::sqrt(s_squared), index_ratio);
-  return depth > 0 ? mean_reflectance(cosine, s_squared, index_ratio, depth) : 1;
+  return depth > 0 ? reflectances(cosine, s_squared, index_ratio, depth) : PolarisedReflectance{1, 1};
+}
+
+double dielectric_reflectance(double cosine, double index_ratio) {
+  return polarised_reflectance(cosine, index_ratio).mean();
 }
 
 double conductor_reflectance(double cosine, double index, double extinction) {
@@ -50,7 +54,7 @@ double conductor_reflectance(double cosine, double index, double extinction) {
   const double one_less_s = cosine * cosine / (1 + s);
   const std::complex<double> w =
       std::sqrt(std::complex(index - 1 + one_less_s, extinction)) * std::sqrt(n + s);
-  return mean_reflectance(cosine, s_squared, n, w);
+  return reflectances(cosine, s_squared, n, w).mean();
 }
 
 std::optional<Vector3> refract(const Vector3& direction, const Vector3& normal, double index_ratio) {

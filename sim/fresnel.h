@@ -1,10 +1,21 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "base/ray.h"
 
 namespace catoptric::sim {
+
+/// Shares of light that a smooth boundary reflects, by its polarisation.
+struct PolarisedReflectance {
+  double across;  ///< the field swings across the plane of incidence: s
+  double along;   ///< in the plane: p
+  double mean() const { return std::min(1.0, 0.5 * (across + along)); }
+};
+
+/// Both of a boundary between clear media; in and out as dielectric_reflectance.
+PolarisedReflectance polarised_reflectance(double cosine, double index_ratio);
 
 /// Share of unpolarised light that a smooth boundary of two clear media reflects, the mean of both
 /// polarisations.

@@ -31,6 +31,9 @@ constexpr double surviving_share(const Material& material) {
   return std::min(1.0, material.reflectance + material.transmittance);
 }
 
+/// Whether light comes back from the surface.
+constexpr bool reflects(const Material& material) { return material.reflectance > 0; }
+
 /// Whether every photon that goes on from its first meeting with the mirror is reflected there.
 constexpr bool reflects_for_certain(const Material& mirror) {
   return mirror.reflectance > 0 && !(mirror.transmittance > 0);

@@ -129,9 +129,9 @@ struct PlaneTracer::Arrival {
 bool PlaneScene::possible(const Scene& scene) {
   const Vector3 source = scene.source.position_mm();
   const auto& material = scene.near_field.material();
-  return dynamic_cast<const PointSource*>(&scene.source) != nullptr && scene.source.tilt_rad() == 0 &&
-         source.x() == 0 && source.y() == 0 && !(material && material->reflectance > 0) &&
-         scene.reflector.engine() == "meridian";
+  return scene.is_bare() && dynamic_cast<const PointSource*>(&scene.source) != nullptr &&
+         scene.source.tilt_rad() == 0 && source.x() == 0 && source.y() == 0 &&
+         !(material && material->reflectance > 0) && scene.reflector.engine() == "meridian";
 }
 
 PlaneScene::PlaneScene(const Scene& whole, const RecordedArea& recorded)

@@ -24,6 +24,7 @@ constexpr std::array<std::pair<Rung, std::string_view>, 3> rung_names{
 
 std::optional<std::string> objection_to_tubes(const Scene& scene, const ModelRequest& request) {
   const EstimateOptions& estimate = request.estimate;
+  if (!scene.is_bare()) return "other things stand about, which tubes do not meet";
   if (auto objection = tubes_objection(scene.source, scene.reflector.profile(), scene.near_field))
     return objection;
   if (request.engine && *request.engine != "meridian")
@@ -53,7 +54,8 @@ class Description {
     mirror();
     near_field();
     more_meetings();
-    if (!scene_.source.is_sampled()) shadow();
+    if (!scene_.is_bare()) surroundings();
+    if (!is_direct_sampled(scene_) && scene_.is_bare()) shadow();
     if (rung != Rung::tubes) {
       directions();
       jumps(rung);
@@ -111,6 +113,27 @@ class Description {
       add("light from the field", "absorbed or passed on", "left out: no diffuse light");
   }
 
+  void surroundings() {
+    for (const Object& object : scene_.surroundings->objects()) {
+      if (object.glass)
+        add(object.name, fmt::format("glass of index {:g}", object.glass->index),
+            "Fresnel's law at its faces, both polarisations inside; dispersion is left out, its edges are "
+            "black");
+      else
+        add(object.name,
+            surviving_share(object.material) > 0 ? "a sheet that light goes on from" : "a black sheet",
+            surviving_share(object.material) > 0 ? "photons go everywhere, not to the mirror alone"
+                                                 : "it takes away what it meets");
+    }
+    for (const MoreField& more : scene_.surroundings->fields())
+      add(more.name, more.field.material() ? "a further field, real" : "a further field, invisible",
+          "a photon map of its own");
+    if (is_direct_sampled(scene_))
+      add("direct light", "some of it goes through things", "photons bring it too, with their noise");
+    else if (scene_.surroundings->may_shade())
+      add("shadow on direct light", "things may stand between", "a ray to every sample asks for them too");
+  }
+
   void shadow() {
     constexpr std::size_t places = 512;  // spread over the near field
     const bool clear = is_view_clear(scene_.reflector.profile(), scene_.source.position_mm(),
@@ -122,6 +145,9 @@ class Description {
   void directions() {
     if (scene_.source.is_sampled())
       return add("emission", "all rays of the source", "direct light comes by photons too");
+    if (sends_everywhere(scene_) && !scene_.is_bare())
+      return add("emission", "in all of the source's directions",
+                 "light may come back from what stands about");
     const double power_w = scene_.source.power_w();
     const double share = power_w > 0 ? emission_of(scene_)->power_w() / power_w : 0;
     add("emission", fmt::format("{:.3g} of the light goes where the mirror may be met", share),

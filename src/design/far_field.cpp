@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "design/evaluator.h"
 #include "design/target_smoothing.h"
@@ -41,6 +42,9 @@ class Maker {
     far.scene.near_field =
         sim::NearField::disc(scene.source.position_mm + distance_mm_ * beam_, -beam_, widest_mm);
     far.scene.target = TargetSpec{};
+    far.scene.fields.clear();
+    if (scene.surroundings)
+      far.scene.surroundings = std::make_shared<const sim::Surroundings>(scene.surroundings->luminaire());
     far.scene.model.estimate.neighbours.reset();
     far.scene.model.estimate.kernel_radius_mm = distance_mm_ * std::tan(spec_.resolution_rad);
     far.target.through_kernel = far.target.intensities = true;

@@ -58,14 +58,16 @@ std::optional<double> uniformity(std::span<const double> total, const Target& ta
   return mean > 0 ? least / mean : 0.0;
 }
 
-std::optional<double> flux_share(const Scene& scene, std::span<const double> total,
+std::optional<double> flux_share(const Scene& scene, std::span<const double> total, const Target& target,
                                  const std::vector<char>& counted) {
+  const bool alike = target.areas_mm2.empty();
   std::vector<double> values;
   for (std::size_t i = 0; i < total.size(); ++i)
-    if (counted[i]) values.push_back(total[i]);
+    if (counted[i]) values.push_back(total[i] * (alike ? 1.0 : target.areas_mm2[i]));
   if (values.empty()) return std::nullopt;
-  return ordered_sum(values) * scene.near_field.area_mm2() / static_cast<double>(total.size()) /
-         scene.source.power_w;
+  const double share =
+      alike ? scene.near_field.area_mm2() / static_cast<double>(total.size()) : 1.0;  // of each
+  return ordered_sum(values) * share / scene.source.power_w;
 }
 
 }  // namespace
@@ -97,13 +99,13 @@ std::optional<double> metric_value(Metric metric, const Scene& scene, std::span<
     case Metric::intensity_rmse:
       return error(metric, scene, total_w_per_mm2, target);
     case Metric::enclosed_flux:
-      return flux_share(scene, total_w_per_mm2, target.within_reach);
+      return flux_share(scene, total_w_per_mm2, target, target.within_reach);
     case Metric::uniformity:
       return uniformity(total_w_per_mm2, target);
     case Metric::efficiency:
       break;
   }
-  return flux_share(scene, total_w_per_mm2, target.lit);
+  return flux_share(scene, total_w_per_mm2, target, target.lit);
 }
 
 double as_objective(Metric metric, double value) { return more_is_better(metric) ? 1 - value : value; }

@@ -324,6 +324,8 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
               .mirror = mirror,
               .near_field = std::move(field),
               .samples = static_cast<std::size_t>(*settings.integer("near_field.samples")),
+              .surroundings = read_surroundings(settings, unit_mm),
+              .fields = read_fields(settings),
               .target = std::move(desired),
               .tailored = tailored(settings, unit_mm),
               .model = model(settings, unit_mm),

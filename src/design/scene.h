@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "design/curvature_profile.h"
 #include "design/free_profile.h"
 #include "design/settings.h"
+#include "design/surroundings_settings.h"
 #include "design/tailored_curve.h"
 #include "optim/problem.h"
 #include "sim/near_field.h"
@@ -133,6 +135,8 @@ struct Scene {
   sim::Material mirror;
   sim::NearField near_field;
   std::size_t samples;
+  std::shared_ptr<const sim::Surroundings> surroundings;  ///< null: nothing stands about
+  std::vector<FieldSpec> fields;                          ///< of the surroundings
   TargetSpec target;
   TailoredSpec tailored;
   ModelSpec model;

@@ -9,6 +9,7 @@
 #include "base/profile_limits.h"
 #include "cad/profile_import.h"
 #include "design/source_settings.h"
+#include "design/surroundings_settings.h"
 #include "design/target_settings.h"
 
 namespace catoptric::design {
@@ -202,6 +203,7 @@ std::vector<std::string> complete(Settings& settings) {
   complete_reference(settings);
   complete_target(settings);
   complete_bandwidth(settings);
+  complete_surroundings(settings);
   return notes;
 }
 

@@ -12,6 +12,7 @@
 #include "design/csv_table.h"
 #include "design/evaluator.h"
 #include "design/far_field.h"
+#include "design/field_targets.h"
 #include "design/radial_target.h"
 #include "design/stage.h"
 #include "design/target_smoothing.h"
@@ -215,6 +216,7 @@ Target make_target(const Scene& scene) {
   const auto wanted = radial_target(scene);
   if (wanted && scene.target.kind != TargetKind::paraboloid && scene.model.estimate.kernel_radius_mm)
     smooth(scene, *wanted, target);
+  append_fields(scene, target);
   target.far = far_field(scene);
   return target;
 }

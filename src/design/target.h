@@ -16,6 +16,7 @@ struct Target {
   std::vector<sim::FieldSample> samples;
   std::vector<double> irradiance_w_per_mm2;  ///< empty when the scene wants nothing
   std::vector<double> weights = {};          ///< how much a sample counts; empty: all alike
+  std::vector<double> areas_mm2 = {};        ///< that each sample stands for; empty: all alike
   std::vector<char> within_reach = {};       ///< 1 at samples within the target's outer edge
   std::vector<char> lit = {};                ///< 1 where light is wanted, by the target without a kernel
   std::shared_ptr<const FarField> far = {};  ///< what is wanted from afar; null: nothing

@@ -107,8 +107,9 @@ Json judged_json(const design::Scene& scene, const design::Judged& judged) {
 Json energy_json(const design::SourceSpec& source, const sim::EnergyLedger& energy) {
   return {{"unit", flux_unit(source.quantity)}, {"source", source.power_w},
           {"towards_mirror", energy.emitted_w}, {"missed_mirror", energy.missed_w},
-          {"absorbed", energy.absorbed_w},      {"received", energy.received_w},
-          {"escaped", energy.escaped_w},        {"cut_off", energy.cut_off_w}};
+          {"absorbed", energy.absorbed_w},      {"stopped_by_objects", energy.stopped_w},
+          {"received", energy.received_w},      {"escaped", energy.escaped_w},
+          {"cut_off", energy.cut_off_w}};
 }
 
 Json reflector_json(const design::Scene& scene, const Profile& profile) {
