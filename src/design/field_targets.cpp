@@ -17,8 +17,8 @@ void append_fields(const Scene& scene, Target& target) {
   if (scene.fields.empty()) return;
   const std::size_t near_samples = target.samples.size();
   const double area_mm2 = scene.near_field.area_mm2() / static_cast<double>(near_samples);
-  const bool wants =
-      std::ranges::any_of(scene.fields, [](const FieldSpec& f) { return f.irradiance_w_per_mm2; });
+  const bool wants = std::ranges::any_of(
+      scene.fields, [](const FieldSpec& spec) { return spec.irradiance_w_per_mm2.has_value(); });
   if (target.irradiance_w_per_mm2.empty() && wants) {
     target.irradiance_w_per_mm2.assign(near_samples, 0.0);
     target.weights.assign(near_samples, 0.0);

@@ -191,7 +191,7 @@ sim::Material sheet(const Settings& settings, const OneThing& thing) {
 }
 
 /// The faces of a thing, by its kind.
-std::vector<sim::ShapePointer> faces(const Settings& settings, const OneThing& object, double unit_mm) {
+std::vector<sim::ShapePointer> faces(const OneThing& object, double unit_mm) {
   const auto length = [&](const char* key) { return object.number(key) * unit_mm; };
   const std::string kind = object.text("kind");
   const Vector3 center_mm = unit_mm * object.vector("center");
@@ -225,7 +225,7 @@ std::vector<sim::ShapePointer> faces(const Settings& settings, const OneThing& o
 }
 
 sim::Object object_of(const Settings& settings, const OneThing& thing, double unit_mm) {
-  sim::Object object{thing.name(), faces(settings, thing, unit_mm), {0, 0}, {}};
+  sim::Object object{thing.name(), faces(thing, unit_mm), {0, 0}, {}};
   object.of_luminaire = thing.text("belongs") == "luminaire";
   if (thing.is_glass())
     object.glass = sim::Glass{thing.number("index"), thing.number("absorption") / unit_mm};
