@@ -180,33 +180,22 @@ class PhotonTracer {
     photon.touched = true;
     photon.on_field = false;
     photon.ray.origin_mm = hit.point_mm;
-    const Material& mirror = flight_.scene.mirror;
-    const Interaction interaction = first && !direct_too_
-                                        ? first_interaction(mirror, [&] { return photon.chance.uniform(); })
-                                        : decide(mirror, photon.chance);
-    if (interaction == Interaction::reflected)
-      photon.ray.direction = reflect(photon.ray.direction, hit.normal);
-    return interaction != Interaction::absorbed;
+    const Roulette roulette = first && !direct_too_ ? Roulette::survivors : Roulette::all;
+    const Scattered after =
+        scatter(flight_.scene.mirror, roulette, photon.ray.direction, hit.normal, photon.chance);
+    photon.ray.direction = after.direction;
+    return after.interaction != Interaction::absorbed;
   }
 
   bool leave_field(Photon& photon, const Arrival& arrival) {
     photon.on_field = true;
     photon.ray.origin_mm = field_.to_space(arrival.plane_mm);
-    const Interaction interaction = decide(*field_.material(), photon.chance);
-    if (interaction == Interaction::reflected) {
-      const double first = photon.chance.uniform();
-      const double second = photon.chance.uniform();
-      const Vector3 normal = arrival.from_front ? field_.normal() : Vector3(-field_.normal());
-      photon.ray.direction =
-          diffuse_direction(field_.first_axis(), field_.second_axis(), normal, first, second);
-    }
-    return interaction != Interaction::absorbed;
-  }
-
-  /// A perfect surface needs no random number.
-  static Interaction decide(const Material& material, RandomStream& chance) {
-    if (material.reflectance >= 1) return Interaction::reflected;
-    return roulette(material, chance.uniform());
+    Eigen::Matrix3d frame;
+    frame << field_.first_axis(), field_.second_axis(), field_.normal();
+    const Scattered after =
+        scatter(*field_.material(), Roulette::all, photon.ray.direction, frame, photon.chance);
+    photon.ray.direction = after.direction;
+    return after.interaction != Interaction::absorbed;
   }
 
   Flight flight_;
@@ -243,7 +232,7 @@ std::unique_ptr<const Emission> emission_of(const Scene& scene) {
     throw InputError(std::move(*defect));
   }
   const auto& material = scene.near_field.material();
-  if (scene.source.is_sampled() || (material && material->reflectance > 0)) return scene.source.emission();
+  if (scene.source.is_sampled() || (material && reflects(*material))) return scene.source.emission();
   return scene.source.emission_to(scene.reflector.profile());
 }
 

@@ -85,6 +85,6 @@ TEST_CASE("no formula is claimed where there is none") {
   CHECK_FALSE(form_of(Profile::bezier({{0, 100, 1}, {50.01, 100, 1}, {100, 50, 1}}), focus, field));
   CHECK_FALSE(form_of(paraboloid_profile(), focus, field, {0.5, 0.2}));
   CHECK_FALSE(
-      form_of(paraboloid_profile(), focus, NearField::disc({0, 0, 0}, {0, 0, 1}, 40, Material{0, 0})));
+      form_of(paraboloid_profile(), focus, NearField::disc({0, 0, 0}, {0, 0, 1}, 40, Material::matt(0))));
   CHECK_FALSE(form_of(sphere_profile(), {0, 0, 49}, field));
 }

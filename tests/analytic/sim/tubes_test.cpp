@@ -326,13 +326,13 @@ TEST_CASE("light through the mirror counts, and light that comes from below does
 TEST_CASE("the rung says in words what it cannot light", "[tubes]") {
   const auto mirror = test::paraboloid(a_mm);
   const NearField flat = NearField::disc({3, 4, 0}, {0, 0, 1}, 50);
-  CHECK_FALSE(tubes_objection(focus, mirror.profile(), flat));
-  CHECK(tubes_objection(PointSource({1, 0, 50}, 1), mirror.profile(), flat)->find("off the axis") !=
+  CHECK_FALSE(tubes_objection(focus, mirror.profile(), {}, flat));
+  CHECK(tubes_objection(PointSource({1, 0, 50}, 1), mirror.profile(), {}, flat)->find("off the axis") !=
         std::string::npos);
-  CHECK(
-      tubes_objection(focus, mirror.profile(), NearField::disc({0, 0, 0}, {0.1, 0, 1}, 50))->find("tilted") !=
-      std::string::npos);
-  CHECK(tubes_objection(focus, mirror.profile(), NearField::disc({0, 0, 0}, {0, 0, 1}, 50, Material{0.5, 0}))
+  CHECK(tubes_objection(focus, mirror.profile(), {}, NearField::disc({0, 0, 0}, {0.1, 0, 1}, 50))
+            ->find("tilted") != std::string::npos);
+  CHECK(tubes_objection(focus, mirror.profile(), {},
+                        NearField::disc({0, 0, 0}, {0, 0, 1}, 50, Material::matt(0.5)))
             ->find("real object") != std::string::npos);
   CHECK_THROWS_AS(tubes_field(PointSource({1, 0, 50}, 1), mirror.profile(), {}, ground, steps(0, 9, 2), {}),
                   InputError);

@@ -47,7 +47,8 @@ std::vector<double> with_threads(int threads, const Run& run) {
 TEST_CASE("1, 2 and 7 threads give the same bits") {
   const auto mirror = test::half_ellipsoid(50, 50, 80);
   const PointSource source({5, 0, 60}, 1);
-  for (const auto& material : {std::optional<Material>{}, std::optional<Material>{Material{0.5, 0.2}}}) {
+  for (const auto& material :
+       {std::optional<Material>{}, std::optional<Material>{Material::matt(0.5, 0.2)}}) {
     const auto field = NearField::rectangle({0, 0, 0}, {0.1, 0, 1}, {1, 0, 0}, 150, 100, material);
     const auto samples = field.samples(333);
     for (Sampler sampler : {Sampler::random, Sampler::sobol})
@@ -96,7 +97,8 @@ TEST_CASE("the ledger adds up whatever the scene does") {
   const auto mirror = test::half_ellipsoid(50, 50, 80);
   for (const Vector3& place : {Vector3(0, 0, 50), Vector3(5, 0, 60), Vector3(0, 0, -300), Vector3(90, 0, 70)})
     for (const Material& surface : {Material{1, 0}, Material{0.7, 0.2}, Material{0, 0}})
-      for (const auto& material : {std::optional<Material>{}, std::optional<Material>{Material{0.5, 0.2}}}) {
+      for (const auto& material :
+           {std::optional<Material>{}, std::optional<Material>{Material::matt(0.5, 0.2)}}) {
         const auto field = NearField::disc({0, 0, 20}, {0, 0, 1}, 40, material);
         const PointSource source(place, 3.7);
         const auto traced =
