@@ -16,7 +16,7 @@ struct FieldSample {
 
 /// A plane patch that registers light: a disc or a rectangle, anywhere and at any tilt. Irradiance counts on
 /// the side its normal looks to. Without a material it is invisible and only registers; with one it is an
-/// object that absorbs, reflects (diffusely) and transmits.
+/// object that absorbs, reflects and transmits.
 class NearField {
  public:
   enum class Shape { disc, rectangle };

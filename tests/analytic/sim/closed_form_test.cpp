@@ -54,6 +54,7 @@ TEST_CASE("paraboloid and sphere are recognised, and photons agree") {
   CHECK(off_in_bounds(paraboloid_profile(), level, {}) < 1);
   CHECK(off_in_bounds(paraboloid_profile(), tilted, {0.85, 0}) < 1);
   CHECK(off_in_bounds(sphere_profile(), level, {0.7, 0}) < 1);
+  CHECK(off_in_bounds(paraboloid_profile(), tilted, Material::metal(1.5, 0.5)) < 1);
 }
 
 TEST_CASE("the paraboloid's form is eq. 12, whatever the degree and direction") {

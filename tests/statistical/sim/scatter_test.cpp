@@ -174,6 +174,8 @@ TEST_CASE("what survives on a rough mirror is its albedo by quadrature") {
       noise.push_back(deviation);
       worst_z = std::max(worst_z, std::abs(values.back() - albedo) / deviation);
     }
+  // alpha 1 spreads the facets evenly; head-on their shares are integrals of c / (1 + c).
+  CHECK(glossy_albedo({1, 0, 0, 1}, 0) == Approx(1 - std::log(2.0)).epsilon(1e-7));
   CAPTURE(worst_z);
   CHECK(test::plausible(test::z_test_p(values, expectations, noise)));
   // wrong twin: nothing is lost
