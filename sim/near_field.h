@@ -35,7 +35,7 @@ struct Arrivals {
 /// A patch that registers light: a disc or a rectangle, anywhere and at any tilt, or the side of a cylinder,
 /// which unrolls into a rectangle. Irradiance counts on the side its normal looks to, of a cylinder inside or
 /// outside. Without a material it is invisible and only registers; with one it is an object that absorbs,
-/// reflects (diffusely) and transmits.
+/// reflects and transmits.
 class NearField {
  public:
   enum class Shape { disc, rectangle, cylinder };

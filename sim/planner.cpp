@@ -25,7 +25,8 @@ constexpr std::array<std::pair<Rung, std::string_view>, 3> rung_names{
 std::optional<std::string> objection_to_tubes(const Scene& scene, const ModelRequest& request) {
   const EstimateOptions& estimate = request.estimate;
   if (!scene.is_bare()) return "other things stand about, which tubes do not meet";
-  if (auto objection = tubes_objection(scene.source, scene.reflector.profile(), scene.near_field))
+  if (auto objection =
+          tubes_objection(scene.source, scene.reflector.profile(), scene.mirror, scene.near_field))
     return objection;
   if (request.engine && *request.engine != "meridian")
     return fmt::format("tubes meet the mirror in its meridian, and engine {} was asked for", *request.engine);
@@ -83,12 +84,27 @@ class Description {
 
   void mirror() {
     const Material& mirror = scene_.mirror;
-    add("mirror", "specular, of revolution", "nothing scatters there; roughness is left out");
-    const bool branches = mirror.transmittance > 0 && mirror.reflectance > 0;
-    add("losses", fmt::format("reflectance {}, transmittance {}", mirror.reflectance, mirror.transmittance),
-        branches                    ? "paths branch at every meeting"
-        : mirror.reflectance >= 1.0 ? "nothing is lost: no roulette is played"
-                                    : "paths do not branch");
+    const bool rough = mirror.reflectance > 0 && mirror.roughness > 0;
+    if (rough)
+      add("mirror", fmt::format("rough, GGX alpha {}, of revolution", mirror.roughness),
+          "light spreads about the mirrored direction; what meets a second microfacet is lost");
+    else if (is_specular(mirror))
+      add("mirror", "specular, of revolution", "nothing scatters there; roughness is left out");
+    else
+      add("mirror", mirror.reflectance > 0 ? "partly matt, of revolution" : "matt, of revolution",
+          "Lambert's law; the rest is mirrored without roughness");
+    const bool branches = mirror.transmittance > 0 && reflects(mirror);
+    std::string shares = fmt::format("reflectance {}", mirror.reflectance);
+    if (mirror.diffuse > 0) shares += fmt::format(", diffuse {}", mirror.diffuse);
+    add("losses", fmt::format("{}, transmittance {}", shares, mirror.transmittance),
+        branches || !is_specular(mirror)                ? "paths branch at every meeting"
+        : mirror.reflectance >= 1.0 && !mirror.by_angle ? "nothing is lost: no roulette is played"
+                                                        : "paths do not branch");
+    if (mirror.by_angle)
+      add("reflectance by angle",
+          fmt::format("{:.4g} head-on, {:.4g} at 60 degrees, {:.4g} grazing", mirror.reflectance_at(1),
+                      mirror.reflectance_at(0.5), mirror.reflectance_at(0)),
+          "unpolarised light, also after a meeting; polarisation is left out");
   }
 
   void near_field() {
@@ -98,8 +114,8 @@ class Description {
                : "irradiance has no symmetry about the axis");
     const auto& material = scene_.near_field.material();
     add("near field's surface", material ? "real" : "invisible",
-        material && material->reflectance > 0 ? "its diffuse light may reach the mirror again"
-                                              : "no light returns from it");
+        material && reflects(*material) ? "its light may reach the mirror again"
+                                        : "no light returns from it");
   }
 
   void more_meetings() {
@@ -109,7 +125,7 @@ class Description {
         lets_out ? "a bowl, open to one side" : "a shape that may throw light back on itself",
         lets_out ? "light that leaves through the mouth is not followed to a second intersection"
                  : "every reflected ray is followed to its next meeting");
-    if (material && material->reflectance <= 0)
+    if (material && !reflects(*material))
       add("light from the field", "absorbed or passed on", "left out: no diffuse light");
   }
 

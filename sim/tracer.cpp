@@ -240,34 +240,26 @@ class PhotonTracer {
     photon.touched = true;
     start_on(photon, hit.point_mm);
     photon.on_mirror = true;
-    const Material& mirror = flight_.scene.mirror;
-    const Interaction interaction = first && !all_alike_
-                                        ? first_interaction(mirror, [&] { return photon.chance.uniform(); })
-                                        : decide(mirror, photon.chance);
-    if (interaction == Interaction::reflected)
-      photon.ray.direction = reflect(photon.ray.direction, hit.normal);
-    return interaction != Interaction::absorbed;
+    const Roulette roulette = first && !all_alike_ ? Roulette::survivors : Roulette::all;
+    return go_on(photon,
+                 scatter(flight_.scene.mirror, roulette, photon.ray.direction, hit.normal, photon.chance));
   }
 
   bool leave_field(Photon& photon, const Arrival& arrival, std::size_t number) {
     const NearField& field = field_at(number);
     start_on(photon, field.to_space(arrival.plane_mm));
     photon.on_field = number;
-    const Interaction interaction = decide(*field.material(), photon.chance);
-    if (interaction == Interaction::reflected) {
-      const double first = photon.chance.uniform();
-      const double second = photon.chance.uniform();
+    Eigen::Matrix3d frame;
+    if (field.shape() == NearField::Shape::cylinder) {
       const Vector3 front = field.front_at(arrival.plane_mm);
-      const Vector3 normal = arrival.from_front ? front : Vector3(-front);
-      if (field.shape() == NearField::Shape::cylinder)
-        photon.ray.direction =
-            diffuse_direction(field.normal(), normal.cross(field.normal()), normal, first, second);
-      else
-        photon.ray.direction =
-            diffuse_direction(field.first_axis(), field.second_axis(), normal, first, second);
+      frame << field.normal(), front.cross(field.normal()), front;
+    } else {
+      frame << field.first_axis(), field.second_axis(), field.normal();
     }
-    if (flight_.room && interaction != Interaction::absorbed) photon.scattered = true;
-    return interaction != Interaction::absorbed;
+    const bool goes_on =
+        go_on(photon, scatter(*field.material(), Roulette::all, photon.ray.direction, frame, photon.chance));
+    if (flight_.room && goes_on) photon.scattered = true;
+    return goes_on;
   }
 
   bool leave_object(Photon& photon, const Surroundings::Stop& stop) {
@@ -275,11 +267,16 @@ class PhotonTracer {
     start_on(photon, photon.ray.origin_mm + stop.meeting.distance_mm * photon.ray.direction);
     photon.on_face = stop.face;
     if (object.glass) return leave_glass(photon, *object.glass, stop);
-    const Interaction interaction = decide(object.material, photon.chance);
-    if (interaction == Interaction::reflected)
-      photon.ray.direction = reflect(photon.ray.direction, stop.meeting.normal);
-    if (interaction != Interaction::absorbed) photon.scattered = true;
-    return interaction != Interaction::absorbed;
+    const bool goes_on = go_on(photon, scatter(object.material, Roulette::all, photon.ray.direction,
+                                               stop.meeting.normal, photon.chance));
+    if (goes_on) photon.scattered = true;
+    return goes_on;
+  }
+
+  /// @out whether it does
+  static bool go_on(Photon& photon, const Scattered& after) {
+    photon.ray.direction = after.direction;
+    return after.interaction != Interaction::absorbed;
   }
 
   /// A photon from a polished face: thrown back by Fresnel's share, else refracted. It comes unpolarised and
@@ -323,12 +320,6 @@ class PhotonTracer {
     photon.on_mirror = false;
     photon.on_field.reset();
     photon.on_face.reset();
-  }
-
-  /// A perfect surface needs no random number.
-  static Interaction decide(const Material& material, RandomStream& chance) {
-    if (material.reflectance >= 1) return Interaction::reflected;
-    return roulette(material, chance.uniform());
   }
 
   Flight flight_;

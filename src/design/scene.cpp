@@ -16,6 +16,7 @@
 #include "design/refinement.h"
 #include "design/scene_defaults.h"
 #include "design/source_settings.h"
+#include "design/surface_settings.h"
 #include "design/tailored_settings.h"
 #include "design/target_settings.h"
 #include "design/variables.h"
@@ -33,17 +34,6 @@ Vector3 direction(const Settings& settings, const char* path) {
   const Vector3 v = vector(settings, path);
   require_direction(settings, path, v);
   return v;
-}
-
-sim::Material material(const Settings& settings, const std::string& table) {
-  const sim::Material result{*settings.number(table + ".reflectance"),
-                             *settings.number(table + ".transmittance")};
-  if (result.reflectance + result.transmittance > 1)
-    throw settings.error(
-        table + ".transmittance", "more light leaves than arrives",
-        fmt::format("reflectance {} + transmittance {} is above 1", result.reflectance, result.transmittance),
-        "lower one of them");
-  return result;
 }
 
 Profile profile(const Settings& settings, const std::string& table, double unit_mm) {
@@ -72,8 +62,7 @@ Profile profile(const Settings& settings, const std::string& table, double unit_
 sim::NearField near_field(const Settings& settings, double unit_mm) {
   const Vector3 center_mm = vector(settings, "near_field.center", unit_mm);
   const Vector3 normal = direction(settings, "near_field.normal");
-  std::optional<sim::Material> surface;
-  if (*settings.boolean("near_field.real")) surface = material(settings, "near_field");
+  const std::optional<sim::Material> surface = near_field_material(settings);
   if (settings.text("near_field.shape") == "disc")
     return sim::NearField::disc(center_mm, normal, *settings.number("near_field.radius") * unit_mm, surface);
   const Vector3 along = direction(settings, "near_field.along");
@@ -304,7 +293,7 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
   sim::NearField field = near_field(settings, unit_mm);
   TargetSpec desired = target(settings, unit_mm, field);
   if (desired.kind == TargetKind::paraboloid) check_paraboloid(settings, source, field);
-  const sim::Material mirror = material(settings, "reflector");
+  const sim::Material mirror = mirror_material(settings);
   const Candidate written{base, source, mirror};
   std::vector<optim::Variable> decision = variables(settings, written, unit);
   SearchSpec sought = search(settings, unit_mm);
@@ -373,6 +362,17 @@ Scene make_scene(Settings settings) {
   Scene scene = written_scene(std::move(settings));
   if (scene.settings.text("start") != "tailored") return scene;
   std::vector<std::string> notes = scene.profile_notes;
+  if (scene.surroundings) {
+    notes.push_back("tailored as if mirror and near field stood alone; figures are those of the whole scene");
+    scene.surroundings = nullptr;
+    scene.fields.clear();
+  }
+  if (scene.near_field.shape() == sim::NearField::Shape::rectangle) {
+    // A target along the radius is made on the disc that holds the rectangle's sides.
+    const sim::NearField& field = scene.near_field;
+    scene.near_field = sim::NearField::disc(field.center_mm(), field.normal(),
+                                            std::max(field.half_width_mm(), field.half_height_mm()));
+  }
   Settings tailored = tailored_settings(scene, from_nothing, notes);
   return build_scene(std::move(tailored), std::move(notes));
 }

@@ -98,6 +98,7 @@ void require_fit(const Scene& scene, sim::Rung rung) {
       scene.target.free_scale)
     refuse("it makes rmse or relative-rmse small, against a target of absolute scale");
   if (scene.mirror.transmittance > 0) refuse("its derivatives are for mirrors that let no light through");
+  if (scene.mirror.by_angle) refuse("its derivatives are for mirrors that reflect alike at all angles");
 }
 
 optim::LeastSquaresProblem fit_problem(const Scene& scene, const Target& target) {

@@ -5,10 +5,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <mutex>
 #include <utility>
 
 #include "base/units.h"
+#include "cad/surface_import.h"
 #include "design/source_settings.h"
 #include "sim/object_shapes.h"
 
@@ -30,7 +33,8 @@ const std::map<std::string, KindKeys>& object_kinds() {
       {"cylinder", {{"radius", "length"}, {"normal"}}},
       {"sphere", {{"radius"}, {"half_angle", "normal"}}},
       {"pane", {{"thickness"}, {"radius", "width", "height", "normal", "along"}}},
-      {"dome", {{"radius", "thickness"}, {"half_angle", "normal"}}}};
+      {"dome", {{"radius", "thickness"}, {"half_angle", "normal"}}},
+      {"file", {{"file"}, {"chord_error"}}}};
   return kinds;
 }
 
@@ -44,7 +48,8 @@ const std::map<std::string, KindKeys>& field_shapes() {
 
 const std::vector<std::string> sizes{"radius",    "inner_radius", "width",  "height", "length",
                                      "thickness", "half_angle",   "normal", "along",  "lit"};
-const std::vector<std::string> of_sheets{"reflectance", "transmittance"}, of_glass{"index", "absorption"};
+const std::vector<std::string> of_sheets{"reflectance", "diffuse", "transmittance", "roughness"},
+    of_fields{"reflectance", "transmittance"}, of_glass{"index", "absorption"};
 
 /// The keys of one thing: `objects.NAME.radius`.
 class OneThing {
@@ -124,7 +129,12 @@ void complete_object(Settings& settings, const std::string& name) {
   if (whole_sphere && object.has("normal"))
     object.refuse("normal", "has no effect", "a whole sphere looks alike from all sides",
                   "remove it, or give a half_angle");
-  if (!whole_sphere) fill("normal", "[0.0, 0.0, 1.0]");
+  if (kind == "file") {
+    settings.make_absolute(object.path("file"));
+    fill("chord_error", "0.001");
+  } else if (!whole_sphere) {
+    fill("normal", "[0.0, 0.0, 1.0]");
+  }
   fill("belongs", "\"luminaire\"");
   const bool flat_pane = kind == "pane" && object.has("width") != object.has("radius");
   if (kind == "pane" && (!flat_pane || object.has("width") != object.has("height")))
@@ -144,7 +154,7 @@ void complete_object(Settings& settings, const std::string& name) {
   }
   refuse_all(object, of_glass, "only a pane or a dome is of glass");
   if (kind == "disc") fill("inner_radius", "0.0");
-  for (const std::string& key : of_sheets) fill(key.c_str(), "0.0");
+  for (const char* key : {"reflectance", "diffuse", "transmittance"}) fill(key, "0.0");
 }
 
 void complete_field(Settings& settings, const std::string& name) {
@@ -164,9 +174,9 @@ void complete_field(Settings& settings, const std::string& name) {
                  field.path("irradiance") + " = 1.0");
   if (field.has("irradiance")) fill("weight", "1.0");
   if (*settings.boolean(field.path("real")))
-    for (const std::string& key : of_sheets) fill(key.c_str(), "0.0");
+    for (const std::string& key : of_fields) fill(key.c_str(), "0.0");
   else
-    for (const std::string& key : of_sheets)
+    for (const std::string& key : of_fields)
       if (field.has(key))
         field.refuse(key, "an invisible field has no material", "it only registers light",
                      field.path("real") + " = true");
@@ -180,14 +190,64 @@ void complete_field(Settings& settings, const std::string& name) {
   fill("kernel_radius", fmt::format("{}", 0.1 * half));
 }
 
-sim::Material sheet(const Settings& settings, const OneThing& thing) {
-  const sim::Material material{thing.number("reflectance"), thing.number("transmittance")};
-  if (material.reflectance + material.transmittance > 1)
+/// Shares checked to add up to no more than all light.
+sim::Material checked_sheet(const Settings& settings, const OneThing& thing, const sim::Material& material) {
+  if (material.reflectance + material.diffuse + material.transmittance > 1)
     throw settings.error(thing.path("transmittance"), "more light leaves than arrives",
-                         fmt::format("reflectance {} + transmittance {} is above 1", material.reflectance,
-                                     material.transmittance),
-                         "lower one of them");
+                         "reflectance, diffuse and transmittance add up to more than 1", "lower one of them");
   return material;
+}
+
+sim::Material object_sheet(const Settings& settings, const OneThing& thing) {
+  sim::Material material;
+  material.reflectance = thing.number("reflectance");
+  material.diffuse = thing.number("diffuse");
+  material.transmittance = thing.number("transmittance");
+  if (thing.has("roughness")) material.roughness = thing.number("roughness");
+  if (material.roughness > 0 && !(material.reflectance > 0))
+    thing.refuse("roughness", "has no effect", "nothing is reflected like from a mirror",
+                 thing.path("reflectance") + " = 0.8");
+  return checked_sheet(settings, thing, material);
+}
+
+sim::Material field_sheet(const Settings& settings, const OneThing& thing) {
+  return checked_sheet(settings, thing,
+                       sim::Material::matt(thing.number("reflectance"), thing.number("transmittance")));
+}
+
+/// A shape with its origin elsewhere.
+class Moved final : public SurfaceShape {
+ public:
+  Moved(sim::ShapePointer shape, const Vector3& origin_mm)
+      : shape_(std::move(shape)), origin_mm_(origin_mm) {}
+  std::optional<Meeting> meet(const Ray& ray, bool starts_here, double reach_mm) const override {
+    return shape_->meet({ray.origin_mm - origin_mm_, ray.direction}, starts_here, reach_mm);
+  }
+
+ private:
+  sim::ShapePointer shape_;
+  Vector3 origin_mm_;
+};
+
+sim::ShapePointer moved(sim::ShapePointer shape, const Vector3& origin_mm) {
+  if (origin_mm.isZero(0)) return shape;
+  return std::make_shared<Moved>(std::move(shape), origin_mm);
+}
+
+/// Faces of a file. It is read once as long as some scene holds them: runs of a study and steps of a search
+/// make many scenes of one file.
+sim::ShapePointer imported(const OneThing& object) {
+  static std::mutex mutex;
+  static std::map<std::string, std::weak_ptr<const SurfaceShape>> known;
+  const std::filesystem::path file = object.text("file");
+  std::error_code none;
+  const auto changed = std::filesystem::last_write_time(file, none).time_since_epoch().count();
+  const std::string key = fmt::format("{}|{}|{}", file.string(), changed, object.number("chord_error"));
+  const std::lock_guard lock(mutex);
+  if (auto shape = known[key].lock()) return shape;
+  sim::ShapePointer shape = cad::import_surface(file, {object.number("chord_error")}).shape;
+  known[key] = shape;
+  return shape;
 }
 
 /// The faces of a thing, by its kind.
@@ -195,6 +255,7 @@ std::vector<sim::ShapePointer> faces(const OneThing& object, double unit_mm) {
   const auto length = [&](const char* key) { return object.number(key) * unit_mm; };
   const std::string kind = object.text("kind");
   const Vector3 center_mm = unit_mm * object.vector("center");
+  if (kind == "file") return {moved(imported(object), center_mm)};
   const Vector3 normal = object.has("normal") ? object.direction("normal") : Vector3::UnitZ();
   const double half_angle = object.has("half_angle") ? object.number("half_angle") * pi / 180 : pi;
   if (kind == "disc") {
@@ -230,7 +291,7 @@ sim::Object object_of(const Settings& settings, const OneThing& thing, double un
   if (thing.is_glass())
     object.glass = sim::Glass{thing.number("index"), thing.number("absorption") / unit_mm};
   else
-    object.material = sheet(settings, thing);
+    object.material = object_sheet(settings, thing);
   return object;
 }
 
@@ -239,7 +300,7 @@ sim::MoreField field_of(const Settings& settings, const OneThing& thing, double 
   const std::string shape = thing.text("shape");
   const Vector3 center_mm = unit_mm * thing.vector("center"), normal = thing.direction("normal");
   std::optional<sim::Material> material;
-  if (*settings.boolean(thing.path("real"))) material = sheet(settings, thing);
+  if (*settings.boolean(thing.path("real"))) material = field_sheet(settings, thing);
   double scale = 1;
   if (const auto radius = settings.number("model.kernel_radius")) {
     scale = thing.number("kernel_radius") / *radius;

@@ -96,6 +96,18 @@ PageSection mirror_section(const design::Scene& scene, const Profile& profile) {
       {}};
 }
 
+/// What becomes of the light that meets the mirror.
+std::string mirror_words(const sim::Material& mirror) {
+  std::string words = mirror.by_angle ? fmt::format("{:.4g} to {:.4g} (head-on, at 60 degrees of incidence)",
+                                                    mirror.reflectance_at(1), mirror.reflectance_at(0.5))
+                                      : fmt::format("{:.4g}", mirror.reflectance);
+  words += mirror.roughness > 0 && mirror.reflectance > 0
+               ? fmt::format(" is reflected by microfacets of roughness {:.4g}", mirror.roughness)
+               : " is reflected specularly";
+  if (mirror.diffuse > 0) words += fmt::format(", {:.4g} diffusely", mirror.diffuse);
+  return words + fmt::format(", {:.4g} passes", mirror.transmittance);
+}
+
 /// What the model holds and what it does not, so that nobody reads more into the figures.
 PageSection model_section(const design::Scene& scene, const sim::Plan& plan) {
   PageSection section{"What was modelled", {}, {}, {}, {}};
@@ -103,14 +115,15 @@ PageSection model_section(const design::Scene& scene, const sim::Plan& plan) {
     section.facts.emplace_back(finding.feature, finding.found + ": " + finding.consequence);
   section.paragraphs = {
       fmt::format(
-          "Light from the source meets the true surface of revolution (engine {}); of it {:.4g} is "
-          "reflected specularly, {:.4g} passes and the rest is absorbed, as often as it meets it. Direct "
-          "light is computed, with the mirror's shadow.",
-          name(scene.model.engine), scene.mirror.reflectance, scene.mirror.transmittance),
-      "Left out: scattering and the mirror's figure error, colour, polarisation, and all surroundings but "
-      "the near field. The kernel's bias is extrapolated from two bandwidths; at jumps of "
-      "the "
-      "field (the rim of a beam, a fold) it is underestimated."};
+          "Light from the source meets the true surface of revolution (engine {}); of it {} and the rest is "
+          "absorbed, as often as it meets it. Direct light is computed, with the mirror's shadow.",
+          name(scene.model.engine), mirror_words(scene.mirror)),
+      std::string("Left out: ") +
+          (sim::is_specular(scene.mirror) ? "scattering" : "light between two microfacets") +
+          " and the mirror's figure error, colour, polarisation, and all surroundings but "
+          "the near field. The kernel's bias is extrapolated from two bandwidths; at jumps of "
+          "the "
+          "field (the rim of a beam, a fold) it is underestimated."};
   return section;
 }
 

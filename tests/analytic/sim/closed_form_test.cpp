@@ -54,6 +54,7 @@ TEST_CASE("paraboloid and sphere are recognised, and photons agree") {
   CHECK(off_in_bounds(paraboloid_profile(), level, {}) < 1);
   CHECK(off_in_bounds(paraboloid_profile(), tilted, {0.85, 0}) < 1);
   CHECK(off_in_bounds(sphere_profile(), level, {0.7, 0}) < 1);
+  CHECK(off_in_bounds(paraboloid_profile(), tilted, Material::metal(1.5, 0.5)) < 1);
 }
 
 TEST_CASE("the paraboloid's form is eq. 12, whatever the degree and direction") {
@@ -85,6 +86,6 @@ TEST_CASE("no formula is claimed where there is none") {
   CHECK_FALSE(form_of(Profile::bezier({{0, 100, 1}, {50.01, 100, 1}, {100, 50, 1}}), focus, field));
   CHECK_FALSE(form_of(paraboloid_profile(), focus, field, {0.5, 0.2}));
   CHECK_FALSE(
-      form_of(paraboloid_profile(), focus, NearField::disc({0, 0, 0}, {0, 0, 1}, 40, Material{0, 0})));
+      form_of(paraboloid_profile(), focus, NearField::disc({0, 0, 0}, {0, 0, 1}, 40, Material::matt(0))));
   CHECK_FALSE(form_of(sphere_profile(), {0, 0, 49}, field));
 }

@@ -1,5 +1,6 @@
 #include "sim/surroundings.h"
 
+#include <boost/math/distributions/students_t.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
@@ -58,6 +59,16 @@ Shares plate(double reflectance, double internal) {
 
 Shares mean(const Shares& a, const Shares& b) {
   return {0.5 * (a.through + b.through), 0.5 * (a.back + b.back), 0.5 * (a.kept + b.kept)};
+}
+
+/// Two-sided p of the mean of some independent sets being what is wanted.
+double student_p(const std::vector<double>& sets, double wanted) {
+  const auto n = static_cast<double>(sets.size());
+  const double mean = std::accumulate(sets.begin(), sets.end(), 0.0) / n;
+  double square = 0;
+  for (const double x : sets) square += (x - mean) * (x - mean);
+  const double t = std::abs(mean - wanted) / std::sqrt(square / (n - 1) / n);
+  return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(n - 1), t));
 }
 
 double share_p(double share, double wanted, std::uint64_t photons) {
@@ -223,7 +234,7 @@ TEST_CASE("a cylinder has no seam, and its light is that of the image behind the
 TEST_CASE("in a closed room all light ends, after as many meetings as its walls' reflectance allows") {
   constexpr double reflectance = 0.7;
   constexpr std::uint64_t photons = 100'000;
-  const Material grey{reflectance, 0};
+  const Material grey = Material::matt(reflectance);
   const NearField floor = NearField::disc({0, 0, -50}, {0, 0, 1}, 40, grey);
   const Surroundings room({}, {{"ceiling", NearField::disc({0, 0, 50}, {0, 0, -1}, 40, grey)},
                                {"wall", NearField::cylinder({0, 0, 0}, {0, 0, 1}, 40, 100, true, grey)}});
@@ -238,4 +249,37 @@ TEST_CASE("in a closed room all light ends, after as many meetings as its walls'
   // Those absorbed at their first wall were on their way straight from the source.
   CHECK(light.energy.received_w + light.energy.missed_w == Approx(1).epsilon(1e-12));
   CHECK(test::plausible(share_p(light.energy.received_w, reflectance, photons)));
+}
+
+TEST_CASE("an integrating sphere has the same light everywhere, of all its reflections") {
+  constexpr double reflectance = 0.9, radius_mm = 100, power_w = 2;
+  const Object sphere{
+      "sphere", {make_cap({0, 0, 0}, {0, 0, 1}, radius_mm, pi)}, Material::matt(reflectance), {}};
+  const PointSource point({0, 0, 0}, power_w);
+  const NearField inside = NearField::disc({30, 10, -50}, {0.2, 0.3, 1}, 20);
+  const Surroundings room({sphere}, {});
+  const Scene scene{point, out_of_the_way, {0, 0}, inside, &room};
+  const std::vector<FieldSample> samples = inside.samples(9);
+  // The wall is lit evenly from its centre, and evenly again by its own light: a Lambertian wall of a sphere
+  // gives all of its places the same. Within it the radiance is that of the wall from everywhere.
+  const double wall = power_w / (4 * pi * radius_mm * radius_mm);
+  const double of_reflections = wall * reflectance / (1 - reflectance);
+  // Photons cross the disc several times each, so their crossings are no independent events: sets tell the
+  // noise.
+  constexpr std::size_t sets = 24;
+  std::vector<std::vector<double>> of_sample(samples.size());
+  for (std::uint64_t set = 0; set < sets; ++set) {
+    const FieldEstimate light =
+        simulate(scene, samples, {20'000, Sampler::random, 11, set}, {Kernel::silverman, std::nullopt, 8});
+    for (std::size_t i = 0; i < samples.size(); ++i) of_sample[i].push_back(light.reflected[i]);
+    CHECK(light.energy.escaped_w == 0);
+    CHECK(light.energy.stopped_w + light.energy.received_w == Approx(power_w).epsilon(1e-12));
+    CHECK(light.direct[0] ==
+          Approx(point.unhindered_w_per_mm2(samples[0].point_mm, samples[0].normal)).epsilon(1e-15));
+  }
+  const double darker = wall * 0.85 / (1 - 0.85);
+  for (const std::vector<double>& values : of_sample) {
+    CHECK(test::plausible(student_p(values, of_reflections)));
+    CHECK(test::rejected(student_p(values, darker)));
+  }
 }

@@ -37,10 +37,11 @@ const std::string wall =
 }  // namespace
 
 TEST_CASE("things and fields are read in the scene's unit, and written out with what was left out") {
-  const Scene read = scene(wall +
-                           "[objects.cover]\nkind = \"pane\"\nradius = 11\nthickness = 0.3\ncenter = [0, 0, 1]\n"
-                           "index = 1.5\nabsorption = 0.1\n"
-                           "[objects.stop]\nkind = \"disc\"\nradius = 2\ninner_radius = 1\nbelongs = \"room\"\n");
+  const Scene read =
+      scene(wall +
+            "[objects.cover]\nkind = \"pane\"\nradius = 11\nthickness = 0.3\ncenter = [0, 0, 1]\n"
+            "index = 1.5\nabsorption = 0.1\n"
+            "[objects.stop]\nkind = \"disc\"\nradius = 2\ninner_radius = 1\nbelongs = \"room\"\n");
   REQUIRE(read.surroundings);
   REQUIRE(read.surroundings->objects().size() == 2);
   const sim::Object& cover = read.surroundings->objects()[0];
@@ -67,8 +68,9 @@ TEST_CASE("samples of further fields count by their area and their weight, and n
   REQUIRE(target.samples.size() == 88);
   CHECK(target.weights[0] == 1);
   CHECK(target.weights[70] == 0);
-  const Scene wanted = scene(wall + "irradiance = 3\nweight = 2\n[target]\nkind = \"uniform\"\nradius = 5\n"
-                                    "irradiance = 2\n");
+  const Scene wanted = scene(wall +
+                             "irradiance = 3\nweight = 2\n[target]\nkind = \"uniform\"\nradius = 5\n"
+                             "irradiance = 2\n");
   const Target both = make_target(wanted);
   CHECK(both.irradiance_w_per_mm2[70] == Approx(3e-6));
   CHECK(both.weights[70] == Approx(2 * (24.0 / 24) / (25 * pi / 64)).epsilon(1e-14));
@@ -87,8 +89,9 @@ TEST_CASE("samples of further fields count by their area and their weight, and n
 }
 
 TEST_CASE("a scene with things about takes photons, and says of each what it does") {
-  const Scene covered = scene("[objects.cover]\nkind = \"pane\"\nradius = 20\nthickness = 0.3\ncenter = [0, 0, 1]\n"
-                              "index = 1.5\n");
+  const Scene covered = scene(
+      "[objects.cover]\nkind = \"pane\"\nradius = 20\nthickness = 0.3\ncenter = [0, 0, 1]\n"
+      "index = 1.5\n");
   const sim::Plan plan = make_plan(covered, covered.profile);
   CHECK(plan.rung == sim::Rung::photons);
   std::string said;
@@ -99,8 +102,9 @@ TEST_CASE("a scene with things about takes photons, and says of each what it doe
 }
 
 TEST_CASE("a cover costs the light that Fresnel says, of mirror and source alike") {
-  const std::string cover = "[objects.cover]\nkind = \"pane\"\nradius = 1000\nthickness = 0.3\ncenter = [0, 0, 1]\n"
-                            "index = 1.5\n";
+  const std::string cover =
+      "[objects.cover]\nkind = \"pane\"\nradius = 1000\nthickness = 0.3\ncenter = [0, 0, 1]\n"
+      "index = 1.5\n";
   const auto total = [](const Scene& read) {
     const Evaluation found =
         evaluate_by_rung(read, sim::Rung::photons, read.profile, read.near_field.samples(64), 1);
@@ -117,7 +121,8 @@ TEST_CASE("a cover costs the light that Fresnel says, of mirror and source alike
 TEST_CASE("things that make no sense are refused by their keys") {
   refused("[objects.a]\nradius = 1\n", "objects.a.kind: is missing");
   refused("[objects.a]\nkind = \"disc\"\n", "objects.a.radius: is missing");
-  refused("[objects.a]\nkind = \"disc\"\nradius = 1\nlength = 2\n", "objects.a.length: does not belong to a disc");
+  refused("[objects.a]\nkind = \"disc\"\nradius = 1\nlength = 2\n",
+          "objects.a.length: does not belong to a disc");
   refused("[objects.a]\nkind = \"disc\"\nradius = 1\ninner_radius = 1\n", "objects.a.inner_radius");
   refused("[objects.a]\nkind = \"disc\"\nradius = 1\nindex = 1.5\n", "objects.a.index: has no effect");
   refused("[objects.a]\nkind = \"disc\"\nradius = 1\nreflectance = 0.7\ntransmittance = 0.5\n",
@@ -133,7 +138,8 @@ TEST_CASE("things that make no sense are refused by their keys") {
   refused("[fields.a]\nwidth = 1\nheight = 1\nreflectance = 0.5\n", "an invisible field has no material");
   refused("[fields.a]\nwidth = 1\nheight = 1\nweight = 2\n", "fields.a.weight: stands alone");
   refused("[fields.a]\nwidth = 1\nheight = 1\nalong = [0, 0, 1]\n", "is parallel to the normal");
-  refused("[fields.a]\nshape = \"cylinder\"\nradius = 1\nlength = 9\nkernel_radius = 4\n", "more than once round");
+  refused("[fields.a]\nshape = \"cylinder\"\nradius = 1\nlength = 9\nkernel_radius = 4\n",
+          "more than once round");
   CHECK_THROWS_WITH(make_scene(Settings::parse("accuracy = 0.01\n" + text(wall), "s.toml", scene_keys())),
                     Catch::Contains("proven for the near field alone"));
 }

@@ -46,7 +46,7 @@ TEST_CASE("what tubes cannot do goes to the next rung, and forcing tubes there i
   refused({0, 0, 50}, {0, 1, 1}, fixed, {}, Rung::photons, "tilted");
   refused({0, 0, 50}, {0, 0, 1}, {Kernel::silverman, 100, {}}, {}, Rung::photons, "number of photons");
   refused({0, 0, 50}, {0, 0, 1}, {Kernel::cone, {}, 5.0}, {}, Rung::photons, "cone");
-  refused({0, 0, 50}, {0, 0, 1}, fixed, Material{0.5, 0}, Rung::rings, "near field");
+  refused({0, 0, 50}, {0, 0, 1}, fixed, Material::matt(0.5), Rung::rings, "near field");
 }
 
 TEST_CASE("an engine that was asked for is used: tubes, which have their own, are not") {
