@@ -24,6 +24,7 @@ class AngularReflectance {
 
   /// The share of the greatest reflectance at an incidence, in [0, 1].
   /// @in    cosine of the angle of incidence, in [0, 1]
+  /// @error roundings; head-on a cosine tells the angle to 2e-8 rad, by which a table may slope
   double relative(double cosine) const;
 
   bool operator==(const AngularReflectance&) const = default;

@@ -51,6 +51,8 @@ std::vector<double> ring_expectations(const test::Flown& flown, std::vector<doub
 /// A mirror whose reflectance turns up and down with the angle.
 Material wavy() { return Material::with_table({0, 0.3, 0.5, 0.7}, {0.9, 0.5, 0.7, 0.2}); }
 
+Material falling() { return Material::with_table({0, 0.8}, {0.9, 0.5}); }
+
 /// Paper eq. 12 times the reflectance at the incidence, whose tangent on a paraboloid is r / 2 a.
 double by_formula(const Material& material, double r) {
   const double square = 1 + r * r / 10'000;
@@ -64,13 +66,13 @@ Profile paraboloid() { return Profile::bezier({{0, 100, 1}, {50, 100, 1}, {100, 
 /// other.
 double flat_mirror_power(const Material& material, const Source& source, double inner, double outer) {
   const Vector3 up(0, 0, 1), from = source.position_mm();
-  return integral(0, 40, 6, [&](double r) {
+  return integral(0, 40, 3, [&](double r) {
     const Vector3 place(r, 0, 50), way = place - from;
     const double distance = way.norm();
     const Vector3 in = way / distance;
     const double irradiance = source.intensity_w_per_sr(in) * in.z() / (distance * distance);
-    return 2 * pi * r * irradiance * integral(inner, outer, 3, [&](double rho) {
-             return 2 * rho * integral(0, pi, 6, [&](double azimuth) {
+    return 2 * pi * r * irradiance * integral(inner, outer, 1, [&](double rho) {
+             return 2 * rho * integral(0, pi, 4, [&](double azimuth) {
                       const Vector3 on = Vector3(rho * std::cos(azimuth), rho * std::sin(azimuth), 0) - place;
                       const double length = on.norm(), cosine = 50 / length;
                       return bsdf(material, in, on / length, up) * cosine * cosine / (length * length);
@@ -86,7 +88,7 @@ TEST_CASE("photons of a paraboloid carry the reflectance at their own incidence"
   const auto field = NearField::disc({0, 0, 0}, {0, 0, 1}, 100);
   constexpr std::size_t rings = 10;
   std::uint64_t stream = 0;
-  for (const Material& material : {Material::metal(1.5, 0.5), wavy()})
+  for (const Material& material : {falling(), wavy()})
     for (const FlightSpace space : {FlightSpace::as_needed, FlightSpace::always_space}) {
       const auto flown = test::fly({focus, *mirror, material, field},
                                    {300'000, Sampler::random, 5, stream++, 100}, 0, space);
@@ -111,7 +113,7 @@ TEST_CASE("rings of a paraboloid carry the reflectance at their own incidence") 
   const auto mirror = cad::make_meridian_reflector(paraboloid());
   const auto field = NearField::disc({0, 0, 0}, {0, 0, 1}, 100);
   const std::vector<double> radii{0, 20, 40, 65, 90};
-  const Material material = Material::metal(1.5, 0.5);
+  const Material material = falling();
   for (const bool in_plane : {true, false}) {
     RingsOptions options;
     options.photons = {600'000, Sampler::random, 8, in_plane ? 1u : 2u, 100};
@@ -152,7 +154,7 @@ TEST_CASE("a rough and matt flat mirror lights a plane as its distribution says"
     CAPTURE(material.roughness);
     CHECK(test::plausible(test::chi_square_p(counts, want(material))));
     Material twin = material;
-    twin.roughness *= 1.05;
+    twin.roughness *= 1.1;
     CHECK(test::rejected(test::chi_square_p(counts, want(twin))));
   }
 }
