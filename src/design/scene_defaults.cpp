@@ -8,6 +8,7 @@
 #include "base/profile.h"
 #include "base/profile_limits.h"
 #include "cad/profile_import.h"
+#include "design/sampling.h"
 #include "design/source_settings.h"
 #include "design/target_settings.h"
 
@@ -201,6 +202,7 @@ std::vector<std::string> complete(Settings& settings) {
   complete_near_field(settings);
   complete_reference(settings);
   complete_target(settings);
+  complete_samples(settings);
   complete_bandwidth(settings);
   return notes;
 }
