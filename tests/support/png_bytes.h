@@ -26,10 +26,18 @@ class PngBytes {
     return *this;
   }
 
+  /// What has been written.
+  const std::string& bytes() const { return bytes_; }
+
   /// Ends the file with its pixels.
   std::string with_rows(const std::vector<std::string>& rows) {
     std::string raw;
     for (const std::string& row : rows) raw += std::string(1, '\0') + row;
+    return with_raw(raw);
+  }
+
+  /// The same from what is to be compressed, filters and all.
+  std::string with_raw(const std::string& raw) {
     std::string stream = "\x78\x01";
     for (std::size_t at = 0; at < raw.size() || at == 0; at += most_stored) {
       const std::string block = raw.substr(at, most_stored);
