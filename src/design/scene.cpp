@@ -91,6 +91,7 @@ TargetSpec target(const Settings& settings, double unit_mm, const sim::NearField
   if (settings.text("target.kind") == "reflector") reference = profile(settings, "target", unit_mm);
   TargetSpec spec = target_spec(settings, unit_mm, std::move(reference));
   check_across_axis(settings, spec, field);
+  add_field_notes(spec, field);
   return spec;
 }
 
@@ -119,7 +120,7 @@ ModelSpec model(const Settings& settings, double unit_mm) {
 
 Metric metric(const std::string& text) {
   for (Metric each : {Metric::relative_rmse, Metric::enclosed_flux, Metric::uniformity, Metric::efficiency,
-                      Metric::intensity_rmse})
+                      Metric::intensity_rmse, Metric::diversity, Metric::relative_intensity_rmse})
     if (text == name(each)) return each;
   return Metric::rmse;
 }
@@ -315,6 +316,7 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
               .samples = static_cast<std::size_t>(*settings.integer("near_field.samples")),
               .surroundings = read_surroundings(settings, unit_mm),
               .fields = read_fields(settings),
+              .grid = settings.text("near_field.grid") == "en12464" ? SampleGrid::en12464 : SampleGrid::area,
               .target = std::move(desired),
               .tailored = tailored(settings, unit_mm),
               .model = model(settings, unit_mm),
@@ -341,8 +343,9 @@ std::string_view name(Engine engine) {
 }
 
 std::string_view name(Metric metric) {
-  constexpr std::string_view names[] = {"rmse",       "relative-rmse", "enclosed-flux",
-                                        "uniformity", "efficiency",    "intensity-rmse"};
+  constexpr std::string_view names[] = {
+      "rmse",       "relative-rmse",  "enclosed-flux", "uniformity",
+      "efficiency", "intensity-rmse", "diversity",     "relative-intensity-rmse"};
   return names[static_cast<std::size_t>(metric)];
 }
 

@@ -25,8 +25,10 @@
 
 namespace catoptric::design {
 
+struct Picture;
+
 /// uniform and ring are zones: one, and two.
-enum class TargetKind { none, paraboloid, reflector, csv, zones, gaussian, radial };
+enum class TargetKind { none, paraboloid, reflector, csv, zones, gaussian, radial, image };
 
 /// Where the desired irradiance comes from.
 struct TargetSpec {
@@ -43,8 +45,14 @@ struct TargetSpec {
   double reach_mm = 0;  ///< zones, gaussian, radial: nothing is wanted beyond
   std::vector<double> angles_rad, intensities_w_per_sr;  ///< wanted from afar; empty: nothing
   double resolution_rad = 0;                             ///< of angles there
+  bool free_intensity = false;                           ///< of these only the shape is wanted
+  std::shared_ptr<const Picture> picture;                ///< image
+  std::vector<std::string> notes;                        ///< what is worth telling, in sentences
   bool free_scale = false;  ///< only the shape is wanted: its level is the program's to choose
 };
+
+/// How the near field's samples lie: even by area, or on the measuring grid of EN 12464-1.
+enum class SampleGrid { area, en12464 };
 
 enum class Engine { meridian, occt, mesh };
 std::string_view name(Engine engine);
@@ -61,7 +69,16 @@ struct ModelSpec {
   std::uint64_t most_photons;  ///< that proving an accuracy may spend
 };
 
-enum class Metric { rmse, relative_rmse, enclosed_flux, uniformity, efficiency, intensity_rmse };
+enum class Metric {
+  rmse,
+  relative_rmse,
+  enclosed_flux,
+  uniformity,
+  efficiency,
+  intensity_rmse,
+  diversity,
+  relative_intensity_rmse
+};
 std::string_view name(Metric metric);
 
 /// What a search may move of the shape: named components, all of the profile, or its curvature.
@@ -137,6 +154,7 @@ struct Scene {
   std::size_t samples;
   std::shared_ptr<const sim::Surroundings> surroundings;  ///< null: nothing stands about
   std::vector<FieldSpec> fields;                          ///< of the surroundings
+  SampleGrid grid;
   TargetSpec target;
   TailoredSpec tailored;
   ModelSpec model;

@@ -8,6 +8,7 @@
 #include "base/profile.h"
 #include "base/profile_limits.h"
 #include "cad/profile_import.h"
+#include "design/sampling.h"
 #include "design/source_settings.h"
 #include "design/surface_settings.h"
 #include "design/surroundings_settings.h"
@@ -195,6 +196,7 @@ std::vector<std::string> complete(Settings& settings) {
   complete_surfaces(settings);
   complete_reference(settings);
   complete_target(settings);
+  complete_samples(settings);
   complete_bandwidth(settings);
   complete_surroundings(settings);
   return notes;

@@ -39,7 +39,8 @@ double paraboloid_direct_w_per_mm2(double power_w, double height_mm, double dist
 /// in
 ///        the comparison: by tubes where the model takes them, else with 16 times the scene's photons, a
 ///        quarter of the noise of one evaluation; a target along the radius is smoothed by the kernel where
-///        it has a fixed radius. Paraboloids and tables of points are taken as they are
+///        it has a fixed radius. Paraboloids, tables of points
+///        and pictures are taken as they are
 Target make_target(const Scene& scene);
 
 /// The same with paraboloids too seen through the kernel, so that a wide kernel's blur is on both sides of

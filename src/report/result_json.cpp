@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "design/constraints.h"
 #include "design/metrics.h"
+#include "report/field_report.h"
 
 namespace catoptric::report {
 namespace {
@@ -35,13 +36,6 @@ Json stages_json(const std::vector<design::RefinementStage>& stages) {
                     {"evaluations", stage.evaluations},
                     {"search_value", search_value_json(stage.value)}});
   return json;
-}
-
-/// Where the truth lies with a probability of 95 %; null where that is not known.
-Json interval_json(const design::Figure& figure) {
-  if (!figure.half_interval) return nullptr;
-  const double middle = figure.value - figure.bias;
-  return {std::max(0.0, middle - *figure.half_interval), middle + *figure.half_interval};
 }
 
 std::string json_unit(design::Metric metric, LightQuantity quantity) {
@@ -101,6 +95,7 @@ Json judged_json(const design::Scene& scene, const design::Judged& judged) {
   return {{"variables", variables_json(judged)},
           {"objective", objective_json(scene, judged.judgement)},
           {"metrics", metrics_json(judged.judgement, scene.source.quantity)},
+          {"near_field", field_json(scene, judged.judgement)},
           {"constraints", constraints_json(scene, judged.constraints)}};
 }
 
@@ -197,6 +192,7 @@ Json result_json(const design::Scene& scene, const design::DesignResult& result)
   json["energy"] = energy_json(result.best.source, judgement.energy);
   json["reflector"] = reflector_json(scene, result.best.profile);
   json["profile_notes"] = scene.profile_notes;
+  json["target_notes"] = scene.target.notes;
   return json;
 }
 
@@ -213,6 +209,7 @@ Json result_json(const design::Scene& scene, const design::SimulationResult& res
   json["energy"] = energy_json(result.mirror.source, result.mirror.judgement.energy);
   json["reflector"] = reflector_json(scene, result.mirror.profile);
   json["profile_notes"] = scene.profile_notes;
+  json["target_notes"] = scene.target.notes;
   return json;
 }
 
