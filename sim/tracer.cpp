@@ -25,7 +25,7 @@ namespace {
 
 struct ChunkResult {
   std::vector<Crossing> crossings;
-  std::vector<Vector3> departures;  ///< directions of photons that left, where these are asked for
+  std::vector<Ray> departures;  ///< of photons that left, where these are asked for
   FlightCounts counts;
 };
 
@@ -139,7 +139,7 @@ class PhotonTracer {
     const bool stops = arrival && field_.material() && field_.contains(arrival->plane_mm);
     if (arrival && (photon.touched || direct_too_)) record(photon, *arrival);
     if (!stops && !hit) {
-      if (flight_.departs) result_.departures.push_back(photon.ray.direction);
+      if (flight_.departs) result_.departures.push_back(photon.ray);
       return !photon.touched ? Fate::missed : photon.received ? Fate::received : Fate::escaped;
     }
     if (photon.interactions == flight_.options.most_interactions) return Fate::cut_off;
