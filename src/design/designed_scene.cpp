@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <vector>
+
 #include "design/scene_defaults.h"
 
 namespace catoptric::design {
@@ -21,6 +24,14 @@ void put_variable(Settings& settings, const std::string& name, double value) {
   settings.set({"source.position", fmt::format("[{}, {}, {}]", place[0], place[1], place[2]), found_by});
 }
 
+/// A reference mirror's light is made by the scene's source: with another source it would be another target.
+void remove_target(Settings& settings) {
+  std::vector<std::string> paths;
+  for (const auto& [path, setting] : settings.all())
+    if (path.starts_with("target.")) paths.push_back(path);
+  for (const std::string& path : paths) settings.remove(path);
+}
+
 }  // namespace
 
 std::string designed_text(const Scene& scene, const Judged& found) {
@@ -34,8 +45,13 @@ std::string designed_text(const Scene& scene, const Judged& found) {
   settings.set({"search.method", "\"none\"", found_by});
   settings.set({"search.free", "\"listed\"", found_by});
   put_profile(settings, found.profile, found_by);
+  bool other_source = false;
   for (std::size_t i = 0; i < found.names.size(); ++i)
-    if (parse_scene_variable(found.names[i])) put_variable(settings, found.names[i], found.variables[i]);
+    if (parse_scene_variable(found.names[i])) {
+      put_variable(settings, found.names[i], found.variables[i]);
+      other_source = true;
+    }
+  if (other_source && scene.target.kind == TargetKind::reflector) remove_target(settings);
   return scene_text(make_scene(std::move(settings)));
 }
 
