@@ -26,7 +26,7 @@ namespace {
 
 struct ChunkResult {
   std::vector<Crossing> crossings;
-  std::vector<Vector3> departures;  ///< directions of photons that left, where these are asked for
+  std::vector<Ray> departures;  ///< of photons that left, where these are asked for
   FlightCounts counts;
 };
 
@@ -154,7 +154,7 @@ class PhotonTracer {
       record_flight(photon, reach_mm, stop);
     }
     if (!stop && !hit) {
-      if (flight_.departs) result_.departures.push_back(photon.ray.direction);
+      if (flight_.departs) result_.departures.push_back(photon.ray);
       return !is_met(photon) ? Fate::missed : photon.received ? Fate::received : Fate::escaped;
     }
     if (photon.interactions == flight_.options.most_interactions) return Fate::cut_off;

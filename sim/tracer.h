@@ -159,9 +159,9 @@ class PhotonFlights {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Takes the directions in which photons of one chunk leave for good; called for every chunk once, from
-/// several threads and in any order.
-using TakeDepartures = std::function<void(std::uint64_t chunk, std::span<const Vector3> directions)>;
+/// Takes the rays on which photons of one chunk leave for good, from where they last left the mirror or the
+/// source; called for every chunk once, from several threads and in any order.
+using TakeDepartures = std::function<void(std::uint64_t chunk, std::span<const Ray> rays)>;
 
 /// All of the source's photons through the mirror and away, as if there were no near field and no room: of
 /// the surroundings only what belongs to the luminaire is there.

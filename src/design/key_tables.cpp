@@ -242,6 +242,10 @@ const std::vector<Key>& scene_table() {
       {.path = "intensity.issue_date", .type = text, .standard = "\"\"", .meaning = "date of issue in photometric files, as 2026-05-17; not stated when empty, so that a run gives the same files on any day"},
       {.path = "intensity.input_power", .type = number, .least = 0, .greatest = 1e9, .standard = "0.0", .meaning = "electric power it takes, W, in photometric files; 0: not stated"},
 
+      {.path = "rays.format", .type = choice, .choices = {"tm25", "zemax"}, .standard = "\"tm25\"", .meaning = "command rays: IES TM-25-13 (.tm25ray) or Zemax binary (.dat)"},
+      {.path = "rays.count", .type = integer, .least = 1, .greatest = sim::most_photons, .standard = "1000000", .meaning = "rays that the source sends out; Zemax files hold 4,000,000,000"},
+      {.path = "rays.of", .type = choice, .choices = {"source", "luminaire"}, .standard = "\"source\"", .meaning = "source: all of its rays, with nothing about it, in its own frame (origin source.position, z along source.axis, x along source.along); luminaire: those that leave source and mirror, from where they last left one of them, in the scene's frame"},
+
       {.path = "export.unit", .type = choice, .choices = {"mm", "cm", "m", "in"}, .standard = "\"mm\"", .meaning = "unit of length inside exchange files"},
       {.path = "export.step_schema", .type = choice, .choices = {"ap203", "ap214", "ap242"}, .standard = "\"ap214\"", .meaning = "STEP application protocol"},
       {.path = "export.iges_mode", .type = choice, .choices = {"faces", "brep"}, .standard = "\"faces\"", .meaning = "IGES entities: trimmed surfaces (144) or boundary representation (186)"},

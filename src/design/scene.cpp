@@ -331,6 +331,9 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
                             *settings.text("intensity.luminaire"), *settings.text("intensity.manufacturer"),
                             *settings.text("intensity.lamp"), *settings.text("intensity.issue_date"),
                             *settings.number("intensity.input_power")},
+              .rays = {settings.text("rays.format") == "zemax",
+                       static_cast<std::uint64_t>(*settings.integer("rays.count")),
+                       settings.text("rays.of") == "luminaire"},
               .export_options = export_options(settings, unit_mm)};
   scene.settings = std::move(settings);
   return scene;

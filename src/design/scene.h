@@ -139,6 +139,13 @@ struct IntensitySpec {
   double input_w = 0;
 };
 
+/// What `rays` writes.
+struct RayOutputSpec {
+  bool is_zemax;        ///< else IES TM-25-13
+  std::uint64_t count;  ///< that the source sends out
+  bool of_luminaire;    ///< else of the source alone
+};
+
 struct Scene {
   Settings settings;  ///< every key with its value, defaults included: what scene.toml holds
   std::string title;
@@ -165,6 +172,7 @@ struct Scene {
   TradeoffSpec tradeoff;
   SensitivitySpec sensitivity;
   IntensitySpec intensity;
+  RayOutputSpec rays;
   cad::ExportOptions export_options;
 
   /// A mirror of this shape in the scene as it is written.
