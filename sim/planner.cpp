@@ -76,7 +76,9 @@ class Description {
     const bool extended = light.extent_mm() > 0 || light.is_sampled();
     add("source", fmt::format("{} {} the axis", light.words(), on_axis ? "on" : "off"),
         !on_axis || extended    ? "rays leave their meridian plane: three dimensions"
-        : light.tilt_rad() == 0 ? "rays stay in their meridian plane: two dimensions are enough"
+        : light.tilt_rad() == 0 ? is_specular(scene_.mirror)
+                                      ? "rays stay in their meridian plane: two dimensions are enough"
+                                      : "rays leave their meridian plane at the mirror: three dimensions"
                                 : "its axis is tilted: light differs from azimuth to azimuth");
     add("source's size", extended ? fmt::format("{:g} mm about its position", light.extent_mm()) : "none",
         (extended ? "photons start all over it; " : "left out: ") + light.left_out());
