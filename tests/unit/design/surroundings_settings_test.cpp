@@ -109,7 +109,8 @@ TEST_CASE("a cover costs the light that Fresnel says, and what it throws back th
   const std::string cover =
       "[objects.cover]\nkind = \"pane\"\nradius = 1000\nthickness = 0.3\ncenter = [0, 0, 1]\n"
       "index = 1.5\n";
-  const auto total = [](const Scene& read) {
+  const auto total = [](Scene read) {
+    read.model.photons.photons = 1'000'000;
     const Evaluation found =
         evaluate_by_rung(read, sim::Rung::photons, read.profile, read.near_field.samples(64), 1);
     double sum = 0;
