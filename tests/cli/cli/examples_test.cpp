@@ -111,6 +111,51 @@ TEST_CASE("the torch is designed from a ray file that the scene of its LED makes
   CHECK(luminaire["peak"]["value"] > 3000);
 }
 
+TEST_CASE("a mirror behind a cover has the cover in its light, from near and from afar") {
+  const TemporaryFolder folder;
+  const std::string few = "--set model.photons=30000 --set model.replicates=2 --set near_field.samples=100";
+  const Ended ended =
+      program_run("design '" + examples + "cover_glass.toml' --out '" + (folder / "a").string() + "' " + few);
+  INFO(ended.output);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.output, Contains("stood alone"));
+  CHECK(std::filesystem::file_size(folder / "a" / "reflector.step") > 500);
+  const json result = parsed(folder / "a" / "result.json");
+  CHECK(limit_of(result, "rim_radius_max") <= 60);
+  // About 8 % are thrown back, and some of that comes down by way of the mirror.
+  const double efficiency = result["metrics"]["efficiency"]["value"];
+  CHECK(efficiency > 0.65);
+  CHECK(efficiency < 0.75);
+  CHECK(result["energy"]["stopped_by_objects"] > 0);
+  const json luminaire = luminaire_of(folder / "a", "--set model.photons=20000 --set model.replicates=2");
+  CHECK(luminaire["efficiency"] > 0.97);  // what a pane throws back leaves upwards past the mirror's rim
+  CHECK(luminaire["efficiency"] < 1);
+}
+
+TEST_CASE("a low bay lights floor, walls and ceiling, and its photometric file is the luminaire's alone") {
+  const TemporaryFolder folder;
+  const std::string few = "--set model.photons=30000 --set model.replicates=2 --set near_field.samples=100";
+  const Ended ended =
+      program_run("design '" + examples + "low_bay.toml' --out '" + (folder / "a").string() + "' " + few);
+  INFO(ended.output);
+  REQUIRE(ended.code == 0);
+  CHECK_THAT(ended.output, Contains("wall_east") && Contains("ceiling"));
+  const json result = parsed(folder / "a" / "result.json");
+  const json further = result["near_field"]["further"];
+  REQUIRE(further.size() == 5);
+  // The room is symmetric, and so are its walls' light.
+  const double east = further["wall_east"]["average"]["value"],
+               north = further["wall_north"]["average"]["value"];
+  CHECK(east > 20);
+  CHECK(north == Catch::Detail::Approx(east).epsilon(0.1));
+  // A closed room: all light ends on a surface.
+  CHECK(result["energy"]["escaped"] == 0);
+  CHECK_THAT(read_whole(folder / "a" / "irradiance.csv"),
+             Contains(",noise,surface") && Contains(",wall_south"));
+  const json luminaire = luminaire_of(folder / "a", "--set model.photons=20000 --set model.replicates=2");
+  CHECK(luminaire["efficiency"] == Catch::Detail::Approx(1).epsilon(1e-6));  // a perfect mirror, no room
+}
+
 TEST_CASE("what a design found is a scene of its own, light and figures the same") {
   const TemporaryFolder folder;
   // A height, a power and a reflectance are found beside the mirror's shape.
