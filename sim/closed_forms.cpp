@@ -55,7 +55,8 @@ std::optional<ClosedForm> paraboloid(const Scene& scene, std::span<const FieldSa
       const double facing = std::max(0.0, up * sample.normal.z());
       const bool lit = r >= rings.least_r_mm && r <= rings.greatest_r_mm;
       const Vector3 way(sample.point_mm.x(), sample.point_mm.y(), surface - focus_mm);
-      form.reflected.push_back(lit ? scene.mirror.reflectance *
+      // The incidence on a paraboloid has the tangent r / 2 a.
+      form.reflected.push_back(lit ? scene.mirror.reflectance_at(1 / std::sqrt(widening)) *
                                          scene.source.intensity_w_per_sr(way.normalized()) * facing /
                                          (a * a * widening * widening)
                                    : 0.0);
@@ -83,7 +84,7 @@ std::optional<ClosedForm> sphere(const Scene& scene, std::span<const FieldSample
       return std::nullopt;  // light comes back a second time, or is stopped
     const bool lit = probe->first_hit({center_mm, -way / distance_mm}, lift_mm).has_value();
     const double cosine = std::max(0.0, -sample.normal.dot(way) / distance_mm);
-    form.reflected.push_back(lit ? scene.mirror.reflectance *
+    form.reflected.push_back(lit ? scene.mirror.reflectance_at(1) *
                                        scene.source.intensity_w_per_sr(-way / distance_mm) * cosine /
                                        (distance_mm * distance_mm)
                                  : 0.0);
@@ -96,8 +97,9 @@ std::optional<ClosedForm> sphere(const Scene& scene, std::span<const FieldSample
 std::optional<ClosedForm> closed_form(const Scene& scene, std::span<const FieldSample> samples) {
   const Vector3& source_mm = scene.source.position_mm();
   const Profile& profile = scene.reflector.profile();
-  if (scene.source.is_sampled() || scene.source.extent_mm() > 0 || source_mm.x() != 0 || source_mm.y() != 0 ||
-      scene.mirror.transmittance > 0 || scene.near_field.material() || !Opening::of(profile))
+  if (!scene.is_bare() || scene.source.is_sampled() || scene.source.extent_mm() > 0 || source_mm.x() != 0 ||
+      source_mm.y() != 0 || scene.mirror.transmittance > 0 || !is_specular(scene.mirror) ||
+      scene.near_field.material() || !Opening::of(profile))
     return std::nullopt;
   if (auto form = paraboloid(scene, samples)) return form;
   return sphere(scene, samples);

@@ -121,13 +121,13 @@ FarIntensity far_intensity(const Scene& scene, const IntensityGrid& grid, const 
   SharedSums sums(nodes.count());
   std::atomic<std::uint64_t> departed = 0;
   FarIntensity result;
-  result.totals = depart(scene, photons, [&](std::uint64_t, std::span<const Vector3> directions) {
+  result.totals = depart(scene, photons, [&](std::uint64_t, std::span<const Ray> rays) {
     std::vector<std::uint64_t> part(nodes.count(), 0);
     const auto add = [&](std::size_t plane, std::size_t i, double weight) {
       part[nodes.index(plane, i)] += static_cast<std::uint64_t>(weight / unit_weight + 0.5);
     };
-    for (const Vector3& direction : directions) {
-      const Vector3 local = grid.frame.transpose() * direction;
+    for (const Ray& ray : rays) {
+      const Vector3 local = grid.frame.transpose() * ray.direction;
       const Between gamma = nodes.gamma(local), c = nodes.c(local);
       add(c.low, gamma.low, (1 - c.share) * (1 - gamma.share));
       add(c.low, gamma.high, (1 - c.share) * gamma.share);
@@ -135,7 +135,7 @@ FarIntensity far_intensity(const Scene& scene, const IntensityGrid& grid, const 
       add(c.high, gamma.high, c.share * gamma.share);
     }
     sums.add(part);
-    departed += directions.size();
+    departed += rays.size();
   });
   const double power_w = result.totals.photon_power_w;
   result.departed_w = power_w * static_cast<double>(departed.load());

@@ -23,6 +23,7 @@ constexpr std::size_t fewest_edge_columns = 32, most_edge_columns = 256;
 struct Node {
   Vector3 way;  ///< from the source, unit
   Ray leaving;
+  double reflected = 1;  ///< share of the light
   bool lands = false;
   Vector2 plane_mm = Vector2::Zero();  ///< where, in plane coordinates of the near field
 };
@@ -46,6 +47,7 @@ Node node_by(const Scene& scene, const MeridianPoint& at, const Vector3& out) {
   Node node;
   node.way = (point - scene.source.position_mm()).normalized();
   node.leaving = {point, reflect(node.way, normal)};
+  if (scene.mirror.by_angle) node.reflected = scene.mirror.by_angle->relative(std::abs(node.way.dot(normal)));
   const double climb = node.leaving.direction.dot(field.normal());
   if (climb == 0) return node;
   const double distance = (field.center_mm() - point).dot(field.normal()) / climb;
@@ -160,6 +162,9 @@ class Sheet {
     const Vector3 middle = corners[0]->way + corners[1]->way + corners[2]->way + corners[3]->way;
     cell.power_w = scene_.source.intensity_w_per_sr(middle.normalized()) * 0.5 *
                    (corners[2]->way - corners[0]->way).cross(corners[3]->way - corners[1]->way).norm();
+    if (scene_.mirror.by_angle)
+      cell.power_w *= 0.25 * (corners[0]->reflected + corners[1]->reflected + corners[2]->reflected +
+                              corners[3]->reflected);
     return cell;
   }
 
@@ -244,10 +249,12 @@ class Meetings {
 
 /// What a grid of rays cannot tell.
 std::optional<std::string> untold(const Scene& scene, UnknownBreaks unknown) {
+  if (!scene.is_bare()) return "other things stand about, which may shade";
   if (scene.source.is_sampled()) return "the source is known by its rays alone";
   if (scene.source.extent_mm() > 0) return "the source is extended";
   if (dynamic_cast<const PointSource*>(&scene.source) == nullptr)
     return "the source's intensity may have steps";
+  if (!is_specular(scene.mirror)) return "the mirror scatters, and a grid of rays does not";
   if (scene.mirror.transmittance > 0) return "light goes through the mirror, whose edges it shows";
   if (scene.near_field.material() && unknown != UnknownBreaks::folds)
     return "the near field is real and may shade the mirror";

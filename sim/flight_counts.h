@@ -9,11 +9,12 @@
 namespace catoptric::sim {
 
 /// How a photon's path ended.
-enum class Fate { missed, absorbed, received, escaped, cut_off };
+enum class Fate { missed, absorbed, received, escaped, cut_off, stopped, stopped_untouched };
+inline constexpr std::size_t fates = 7;
 
 /// What is counted of some photons.
 struct FlightCounts {
-  std::array<std::uint64_t, 5> ended{};  ///< photons by Fate
+  std::array<std::uint64_t, fates> ended{};  ///< photons by Fate
   std::uint64_t met_mirror = 0, interactions = 0, stored = 0;
 };
 
@@ -37,11 +38,15 @@ class SharedCounts {
     totals.counts = {photons, met_mirror_, stored_, interactions_};
     const auto count = [&](Fate fate) { return ended_[static_cast<std::size_t>(fate)].load(); };
     const auto power = [&](std::uint64_t n) { return static_cast<double>(n) * totals.photon_power_w; };
-    // Of those cut off, some had met nothing but the near field.
-    const std::uint64_t untouched = photons - count(Fate::missed) - met_mirror_;
+    // Of those cut off, some had met nothing but the near field. (Where photons may be received or stopped
+    // without the mirror, all carry the same.)
+    const std::uint64_t untouched =
+        share < 1 ? photons - count(Fate::missed) - count(Fate::stopped_untouched) - met_mirror_ : 0;
     totals.energy.missed_w = static_cast<double>(count(Fate::missed)) * before_w;
     totals.energy.absorbed_w = power(count(Fate::absorbed)) +
                                static_cast<double>(met_mirror_.load()) * (before_w - totals.photon_power_w);
+    totals.energy.stopped_w =
+        power(count(Fate::stopped)) + static_cast<double>(count(Fate::stopped_untouched)) * before_w;
     totals.energy.received_w = power(count(Fate::received));
     totals.energy.escaped_w = power(count(Fate::escaped));
     totals.energy.cut_off_w =
@@ -50,7 +55,7 @@ class SharedCounts {
   }
 
  private:
-  std::array<std::atomic<std::uint64_t>, 5> ended_{};
+  std::array<std::atomic<std::uint64_t>, fates> ended_{};
   std::atomic<std::uint64_t> met_mirror_ = 0, interactions_ = 0, stored_ = 0;
 };
 

@@ -9,6 +9,7 @@
 
 #include "base/float_traps.h"
 #include "base/units.h"
+#include "sim/ray_roots.h"
 
 namespace catoptric::sim {
 namespace {
@@ -102,10 +103,57 @@ NearField NearField::rectangle(const Vector3& center_mm, const Vector3& normal, 
   return field;
 }
 
+NearField NearField::cylinder(const Vector3& center_mm, const Vector3& axis, double radius_mm,
+                              double length_mm, bool lit_inside, std::optional<Material> material) {
+  check_size(radius_mm, "radius");
+  const Vector3 direction = unit_normal(center_mm, axis);
+  const Vector3 along = std::abs(direction.x()) < 0.9 ? Vector3::UnitX() : Vector3::UnitY();
+  NearField field = rectangle(center_mm, axis, along, 2 * pi * radius_mm, length_mm, material);
+  field.shape_ = Shape::cylinder;
+  field.radius_mm_ = radius_mm;
+  field.lit_inside_ = lit_inside;
+  return field;
+}
+
+Vector3 NearField::front_at(const Vector2& plane_mm) const {
+  if (shape_ != Shape::cylinder) return normal_;
+  const double angle = plane_mm.x() / radius_mm_;
+  const Vector3 outwards = std::cos(angle) * first_axis_ + std::sin(angle) * second_axis_;
+  return lit_inside_ ? Vector3(-outwards) : outwards;
+}
+
+Arrivals NearField::meet(const Ray& ray, bool starts_here, double reach_mm) const {
+  Arrivals arrivals;
+  if (shape_ == Shape::cylinder) {
+    const Vector3 from = ray.origin_mm - center_mm_;
+    const Vector2 across{from.dot(first_axis_), from.dot(second_axis_)};
+    const Vector2 step{ray.direction.dot(first_axis_), ray.direction.dot(second_axis_)};
+    for (const double t : ray_roots(step.squaredNorm(), across.dot(step),
+                                    across.squaredNorm() - radius_mm_ * radius_mm_, starts_here)) {
+      if (!(t > 0 && t <= reach_mm && t < HUGE_VAL)) continue;
+      const Vector2 at = across + t * step;
+      const double height_mm = (from + t * ray.direction).dot(normal_);
+      const bool from_inside = at.dot(step) > 0;
+      arrivals.at[arrivals.count++] = {
+          t, {radius_mm_ * std::atan2(at.y(), at.x()), height_mm}, from_inside == lit_inside_};
+    }
+    return arrivals;
+  }
+  if (starts_here) return arrivals;
+  const double height_mm = (ray.origin_mm - center_mm_).dot(normal_);
+  const double climb = ray.direction.dot(normal_);
+  if (!(height_mm * climb < 0)) return arrivals;
+  const double distance_mm = -height_mm / climb;
+  if (!(distance_mm <= reach_mm)) return arrivals;
+  arrivals.at[arrivals.count++] = {distance_mm, to_plane(ray.origin_mm + distance_mm * ray.direction),
+                                   climb < 0};
+  return arrivals;
+}
+
 std::vector<FieldSample> NearField::samples(std::size_t count) const {
   std::vector<FieldSample> samples;
   if (count == 0) return samples;
-  const auto add = [&](double x, double y) { samples.push_back({to_space({x, y}), normal_}); };
+  const auto add = [&](double x, double y) { samples.push_back({to_space({x, y}), front_at({x, y})}); };
   if (shape_ == Shape::disc) {
     const double golden_angle = pi * (3 - std::sqrt(5.0));
     for (std::size_t i = 0; i < count; ++i) {
@@ -134,10 +182,17 @@ double NearField::area_mm2() const {
 
 Vector2 NearField::to_plane(const Vector3& point_mm) const {
   const Vector3 offset = point_mm - center_mm_;
+  if (shape_ == Shape::cylinder)
+    return {radius_mm_ * std::atan2(offset.dot(second_axis_), offset.dot(first_axis_)), offset.dot(normal_)};
   return {offset.dot(first_axis_), offset.dot(second_axis_)};
 }
 
 Vector3 NearField::to_space(const Vector2& plane_mm) const {
+  if (shape_ == Shape::cylinder) {
+    const double angle = plane_mm.x() / radius_mm_;
+    return center_mm_ + radius_mm_ * (std::cos(angle) * first_axis_ + std::sin(angle) * second_axis_) +
+           plane_mm.y() * normal_;
+  }
   return center_mm_ + plane_mm.x() * first_axis_ + plane_mm.y() * second_axis_;
 }
 

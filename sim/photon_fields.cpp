@@ -26,41 +26,102 @@ bool all_by_radius(std::span<const EstimateOptions> bandwidths) {
                               [](const EstimateOptions& each) { return each.neighbours.has_value(); });
 }
 
+/// One of the surfaces where irradiance is asked for, with its samples.
+struct FieldPart {
+  const NearField& field;
+  std::vector<EstimateOptions> bandwidths;
+  RecordedArea area;
+  std::vector<std::size_t> places;  ///< of its samples among all
+  std::vector<FieldSample> samples;
+  TracedPhotons landed;
+};
+
+EstimateOptions scaled(EstimateOptions bandwidth, double scale) {
+  if (bandwidth.kernel_radius_mm) *bandwidth.kernel_radius_mm *= scale;
+  return bandwidth;
+}
+
+FieldPart part_of(const NearField& field, double kernel_scale, std::span<const EstimateOptions> bandwidths) {
+  FieldPart part{field, {}, {}, {}, {}, {}};
+  double margin_mm = 0;
+  for (const EstimateOptions& each : bandwidths) {
+    part.bandwidths.push_back(scaled(each, kernel_scale));
+    margin_mm = std::max(margin_mm, recording_margin_mm(field, part.bandwidths.back()));
+  }
+  part.area = RecordedArea::about(field, margin_mm);
+  return part;
+}
+
+std::vector<FieldPart> parts_of(const Scene& scene, std::span<const FieldSample> samples,
+                                std::span<const EstimateOptions> bandwidths) {
+  std::vector<FieldPart> parts{part_of(scene.near_field, 1, bandwidths)};
+  if (scene.surroundings)
+    for (const MoreField& more : scene.surroundings->fields())
+      parts.push_back(part_of(more.field, more.kernel_scale, bandwidths));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    CATOPTRIC_EXPECTS(samples[i].field < parts.size());
+    parts[samples[i].field].places.push_back(i);
+    parts[samples[i].field].samples.push_back(samples[i]);
+  }
+  return parts;
+}
+
+/// Puts a part's estimates where its samples are among all.
+void put(const MapEstimate& part, std::span<const std::size_t> places, MapEstimate& all) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    all.irradiance[places[i]] = part.irradiance[i];
+    all.noise[places[i]] = part.noise[i];
+    all.kernel_radius_mm[places[i]] = part.kernel_radius_mm[i];
+    all.photons[places[i]] = part.photons[i];
+  }
+}
+
+MapEstimate of_size(std::size_t size) {
+  return {std::vector<double>(size), std::vector<double>(size), std::vector<double>(size),
+          std::vector<std::size_t>(size)};
+}
+
 }  // namespace
 
 PhotonFields photon_fields(const Scene& scene, std::span<const FieldSample> samples,
                            const PhotonOptions& photons, std::span<const EstimateOptions> bandwidths,
                            std::uint64_t batch) {
   CATOPTRIC_EXPECTS(!bandwidths.empty() && batch > 0 && batch % photons_of_a_chunk == 0);
-  double margin_mm = 0;
-  for (const EstimateOptions& each : bandwidths) {
-    check(each);
-    margin_mm = std::max(margin_mm, recording_margin_mm(scene.near_field, each));
-  }
+  for (const EstimateOptions& each : bandwidths) check(each);
   check(photons);
-  const PhotonFlights flights(scene, RecordedArea::about(scene.near_field, margin_mm));
+  std::vector<FieldPart> parts = parts_of(scene, samples, bandwidths);
+  std::vector<RecordedArea> more;
+  for (std::size_t i = 1; i < parts.size(); ++i) more.push_back(parts[i].area);
+  const PhotonFlights flights(scene, parts.front().area, std::move(more));
   const std::uint64_t chunks = PhotonFlights::chunks(photons.photons);
   const std::uint64_t at_once =
-      all_by_radius(bandwidths) ? std::min(chunks, batch / photons_of_a_chunk) : chunks;
+      all_by_radius(bandwidths) ? std::min(chunks, batch / photons_of_a_chunk / parts.size()) : chunks;
   const std::uint64_t chunks_of_a_batch = std::max<std::uint64_t>(1, at_once);
   PhotonFields fields{std::vector<MapEstimate>(bandwidths.size()), {}, {}};
-  TracedPhotons landed;
   const auto begin_batch = [&] {
-    landed.area = flights.area();
-    landed.photon_power_w = flights.photon_power_w(photons.photons);
-    landed.chunks.assign(at_once, {});
+    for (FieldPart& part : parts) {
+      part.landed.area = part.area;
+      part.landed.photon_power_w = flights.photon_power_w(photons.photons);
+      part.landed.chunks.assign(at_once, {});
+    }
   };
   begin_batch();
   const FlightTotals totals = flights.fly(
       photons,
       [&](std::uint64_t i, std::vector<Crossing>&& crossings) {
-        landed.chunks[i % chunks_of_a_batch] = store(crossings, landed.area);
+        for (std::size_t field = 0; field < parts.size(); ++field)
+          parts[field].landed.chunks[i % chunks_of_a_batch] = store(crossings, parts[field].area, field);
       },
       chunks_of_a_batch,
       [&] {
-        const PhotonMap map(scene.near_field, std::move(landed));
+        std::vector<MapEstimate> batch_estimates(bandwidths.size(), of_size(samples.size()));
+        for (FieldPart& part : parts) {
+          const PhotonMap map(part.field, std::move(part.landed));
+          for (std::size_t i = 0; i < bandwidths.size(); ++i)
+            put(map.estimate(part.samples, part.bandwidths[i]), part.places, batch_estimates[i]);
+        }
         for (std::size_t i = 0; i < bandwidths.size(); ++i)
-          add(fields.estimates[i], map.estimate(samples, bandwidths[i]));
+          add(fields.estimates[i], std::move(batch_estimates[i]));
         begin_batch();
       });
   fields.energy = totals.energy;

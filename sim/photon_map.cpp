@@ -121,7 +121,7 @@ struct PhotonMap::Parts {
   double least_radius_mm;  ///< a bandwidth below this would be a division by nothing
   Side front = {}, back = {};
 
-  const Side& side_of(const Vector3& normal) const { return normal.dot(field.normal()) > 0 ? front : back; }
+  const Side& side_of(const FieldSample& sample) const { return field.looks_to_front(sample) ? front : back; }
 
   void build(std::vector<StoredChunk> chunks) {
     // Bands spare memory and are built side by side; of few photons they only make estimates dearer.
@@ -177,7 +177,9 @@ PhotonMap::~PhotonMap() = default;
 PhotonMap::PhotonMap(PhotonMap&&) noexcept = default;
 PhotonMap& PhotonMap::operator=(PhotonMap&&) noexcept = default;
 
-std::size_t PhotonMap::size(const Vector3& normal) const { return parts_->side_of(normal).size(); }
+std::size_t PhotonMap::size(const Vector3& normal) const {
+  return (normal.dot(parts_->field.normal()) > 0 ? parts_->front : parts_->back).size();
+}
 
 MapEstimate PhotonMap::estimate(std::span<const FieldSample> samples, const EstimateOptions& options) const {
   check(options);
@@ -187,7 +189,7 @@ MapEstimate PhotonMap::estimate(std::span<const FieldSample> samples, const Esti
     const Vector2 at = parts_->field.to_plane(samples[i].point_mm);
     double radius = 0;
     const KernelSum sum =
-        parts_->gather(parts_->side_of(samples[i].normal), {at.x(), at.y()}, options, squares, radius);
+        parts_->gather(parts_->side_of(samples[i]), {at.x(), at.y()}, options, squares, radius);
     out.kernel_radius_mm[i] = radius;
     out.photons[i] = sum.photons();
     if (out.photons[i] == 0) return;
@@ -227,7 +229,7 @@ std::vector<std::vector<double>> PhotonMap::ladder(std::span<const FieldSample> 
     for (std::size_t i = part * chunk; i < std::min(samples.size(), (part + 1) * chunk); ++i) {
       const Vector2 at = parts_->field.to_plane(samples[i].point_mm);
       sum.start({at.x(), at.y()});
-      parts_->side_of(samples[i].normal).add_within({at.x(), at.y()}, widest_radius_mm, sum);
+      parts_->side_of(samples[i]).add_within({at.x(), at.y()}, widest_radius_mm, sum);
       sum.weights(weights);
       for (std::size_t level = 0; level < levels; ++level)
         fields[level][i] = parts_->photon_power_w / (pi * radii[level] * radii[level]) * weights[level] /

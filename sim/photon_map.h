@@ -47,7 +47,7 @@ class PhotonMap {
   PhotonMap(PhotonMap&&) noexcept;
   PhotonMap& operator=(PhotonMap&&) noexcept;
 
-  /// Photons stored on the side that `normal` looks to.
+  /// Photons stored on the side of a plane that `normal` looks to.
   std::size_t size(const Vector3& normal) const;
 
   /// Irradiance at the samples from the photons that arrived on the samples' side.

@@ -129,8 +129,9 @@ struct PlaneTracer::Arrival {
 bool PlaneScene::possible(const Scene& scene) {
   const Vector3 source = scene.source.position_mm();
   const auto& material = scene.near_field.material();
-  return dynamic_cast<const PointSource*>(&scene.source) != nullptr && scene.source.tilt_rad() == 0 &&
-         source.x() == 0 && source.y() == 0 && !(material && material->reflectance > 0) &&
+  return scene.is_bare() && dynamic_cast<const PointSource*>(&scene.source) != nullptr &&
+         scene.source.tilt_rad() == 0 && source.x() == 0 && source.y() == 0 &&
+         !(material && reflects(*material)) && is_specular(scene.mirror) &&
          scene.reflector.engine() == "meridian";
 }
 
@@ -207,7 +208,9 @@ Fate PlaneTracer::settle(std::uint64_t number, const Block& block, std::size_t i
   if (!(block.distance[i] < HUGE_VAL)) return Fate::missed;
   ++counts_.met_mirror;
   ++counts_.interactions;
-  const Interaction interaction = decide_first(photon);
+  const double cosine =
+      std::min(1.0, std::abs(block.dx[i] * block.tangent_z[i] - block.dz[i] * block.tangent_x[i]));
+  const Interaction interaction = decide(scene_.scene.mirror, Roulette::survivors, cosine, photon);
   if (interaction == Interaction::absorbed) return Fate::absorbed;
   const bool reflected = interaction == Interaction::reflected;
   if (reflected && block.leaves[i] != 0)
@@ -236,7 +239,7 @@ Fate PlaneTracer::follow(Photon& photon) {
       photon.on_field = true;
       photon.ray.x_mm += arrival->distance_mm * photon.ray.dx;
       photon.ray.z_mm += arrival->distance_mm * photon.ray.dz;
-      if (decide(*field.material(), photon) == Interaction::absorbed)
+      if (decide(*field.material(), Roulette::all, 1, photon) == Interaction::absorbed)
         return photon.touched ? Fate::received : Fate::missed;
     } else if (!leave_mirror(photon, *hit)) {
       return Fate::absorbed;
@@ -268,7 +271,9 @@ bool PlaneTracer::leave_mirror(Photon& photon, const PlanarHit& hit) {
   photon.on_field = false;
   photon.ray.x_mm = hit.x_mm;
   photon.ray.z_mm = hit.z_mm;
-  const Interaction interaction = first ? decide_first(photon) : decide(scene_.scene.mirror, photon);
+  const double cosine = std::min(1.0, std::abs(photon.ray.dx * hit.tz - photon.ray.dz * hit.tx));
+  const Interaction interaction =
+      decide(scene_.scene.mirror, first ? Roulette::survivors : Roulette::all, cosine, photon);
   if (interaction == Interaction::reflected) {
     const double along = 2 * (photon.ray.dx * hit.tx + photon.ray.dz * hit.tz);
     const double dx = along * hit.tx - photon.ray.dx, dz = along * hit.tz - photon.ray.dz;
@@ -284,13 +289,13 @@ double PlaneTracer::chance_of(Photon& photon) const {
   return photon.chance->uniform();
 }
 
-Interaction PlaneTracer::decide_first(Photon& photon) const {
-  return first_interaction(scene_.scene.mirror, [&] { return chance_of(photon); });
-}
-
-Interaction PlaneTracer::decide(const Material& material, Photon& photon) const {
-  if (material.reflectance >= 1) return Interaction::reflected;
-  return roulette(material, chance_of(photon));
+/// Of surfaces that nothing but mirror or let through.
+Interaction PlaneTracer::decide(const Material& material, Roulette roulette, double cosine,
+                                Photon& photon) const {
+  const Lobe lobe = choose_lobe(material, roulette, cosine, [&] { return chance_of(photon); }).lobe;
+  return lobe == Lobe::mirror    ? Interaction::reflected
+         : lobe == Lobe::through ? Interaction::transmitted
+                                 : Interaction::absorbed;
 }
 
 }  // namespace catoptric::sim

@@ -13,12 +13,12 @@
 namespace catoptric::sim {
 
 /// What photons need that never leave their meridian planes: a point source on the axis that shines alike
-/// round it, a mirror of revolution, and nothing that scatters. The near field may lie anywhere at any tilt:
-/// the way to it is straight, and the plane it lies in does not matter to the way.
+/// round it, a smooth mirror of revolution, and nothing that scatters. The near field may lie anywhere at any
+/// tilt: the way to it is straight, and the plane it lies in does not matter to the way.
 struct PlaneScene {
-  /// Whether photons stay in their planes: a point source on the axis that shines alike round it, a near
-  /// field without diffuse reflection, and the engine that agrees with the plane one to rounding, "meridian"
-  /// (the others are there to be asked).
+  /// Whether photons stay in their planes: a point source on the axis that shines alike round it, a smooth
+  /// mirror, a near field that reflects nothing, and the engine that agrees with the plane one to rounding,
+  /// "meridian" (the others are there to be asked).
   static bool possible(const Scene& scene);
 
   PlaneScene(const Scene& scene, const RecordedArea& area);
@@ -66,8 +66,7 @@ class PlaneTracer {
   bool record(std::uint64_t number, const Arrival& arrival);
   bool leave_mirror(Photon& photon, const PlanarHit& hit);
   double chance_of(Photon& photon) const;
-  Interaction decide_first(Photon& photon) const;
-  Interaction decide(const Material& material, Photon& photon) const;
+  Interaction decide(const Material& material, Roulette roulette, double cosine, Photon& photon) const;
 
   const PlaneScene& scene_;
   int most_interactions_;

@@ -24,7 +24,9 @@ constexpr std::array<std::pair<Rung, std::string_view>, 3> rung_names{
 
 std::optional<std::string> objection_to_tubes(const Scene& scene, const ModelRequest& request) {
   const EstimateOptions& estimate = request.estimate;
-  if (auto objection = tubes_objection(scene.source, scene.reflector.profile(), scene.near_field))
+  if (!scene.is_bare()) return "other things stand about, which tubes do not meet";
+  if (auto objection =
+          tubes_objection(scene.source, scene.reflector.profile(), scene.mirror, scene.near_field))
     return objection;
   if (request.engine && *request.engine != "meridian")
     return fmt::format("tubes meet the mirror in its meridian, and engine {} was asked for", *request.engine);
@@ -53,7 +55,8 @@ class Description {
     mirror();
     near_field();
     more_meetings();
-    if (!scene_.source.is_sampled()) shadow();
+    if (!scene_.is_bare()) surroundings();
+    if (!is_direct_sampled(scene_) && scene_.is_bare()) shadow();
     if (rung != Rung::tubes) {
       directions();
       jumps(rung);
@@ -73,7 +76,9 @@ class Description {
     const bool extended = light.extent_mm() > 0 || light.is_sampled();
     add("source", fmt::format("{} {} the axis", light.words(), on_axis ? "on" : "off"),
         !on_axis || extended    ? "rays leave their meridian plane: three dimensions"
-        : light.tilt_rad() == 0 ? "rays stay in their meridian plane: two dimensions are enough"
+        : light.tilt_rad() == 0 ? is_specular(scene_.mirror)
+                                      ? "rays stay in their meridian plane: two dimensions are enough"
+                                      : "rays leave their meridian plane at the mirror: three dimensions"
                                 : "its axis is tilted: light differs from azimuth to azimuth");
     add("source's size", extended ? fmt::format("{:g} mm about its position", light.extent_mm()) : "none",
         (extended ? "photons start all over it; " : "left out: ") + light.left_out());
@@ -81,12 +86,27 @@ class Description {
 
   void mirror() {
     const Material& mirror = scene_.mirror;
-    add("mirror", "specular, of revolution", "nothing scatters there; roughness is left out");
-    const bool branches = mirror.transmittance > 0 && mirror.reflectance > 0;
-    add("losses", fmt::format("reflectance {}, transmittance {}", mirror.reflectance, mirror.transmittance),
-        branches                    ? "paths branch at every meeting"
-        : mirror.reflectance >= 1.0 ? "nothing is lost: no roulette is played"
-                                    : "paths do not branch");
+    const bool rough = mirror.reflectance > 0 && mirror.roughness > 0;
+    if (rough)
+      add("mirror", fmt::format("rough, GGX alpha {}, of revolution", mirror.roughness),
+          "light spreads about the mirrored direction; what meets a second microfacet is lost");
+    else if (is_specular(mirror))
+      add("mirror", "specular, of revolution", "nothing scatters there; roughness is left out");
+    else
+      add("mirror", mirror.reflectance > 0 ? "partly matt, of revolution" : "matt, of revolution",
+          "Lambert's law; the rest is mirrored without roughness");
+    const bool branches = mirror.transmittance > 0 && reflects(mirror);
+    std::string shares = fmt::format("reflectance {}", mirror.reflectance);
+    if (mirror.diffuse > 0) shares += fmt::format(", diffuse {}", mirror.diffuse);
+    add("losses", fmt::format("{}, transmittance {}", shares, mirror.transmittance),
+        branches || !is_specular(mirror)                ? "paths branch at every meeting"
+        : mirror.reflectance >= 1.0 && !mirror.by_angle ? "nothing is lost: no roulette is played"
+                                                        : "paths do not branch");
+    if (mirror.by_angle)
+      add("reflectance by angle",
+          fmt::format("{:.4g} head-on, {:.4g} at 60 degrees, {:.4g} grazing", mirror.reflectance_at(1),
+                      mirror.reflectance_at(0.5), mirror.reflectance_at(0)),
+          "unpolarised light, also after a meeting; polarisation is left out");
   }
 
   void near_field() {
@@ -96,8 +116,8 @@ class Description {
                : "irradiance has no symmetry about the axis");
     const auto& material = scene_.near_field.material();
     add("near field's surface", material ? "real" : "invisible",
-        material && material->reflectance > 0 ? "its diffuse light may reach the mirror again"
-                                              : "no light returns from it");
+        material && reflects(*material) ? "its light may reach the mirror again"
+                                        : "no light returns from it");
   }
 
   void more_meetings() {
@@ -107,8 +127,29 @@ class Description {
         lets_out ? "a bowl, open to one side" : "a shape that may throw light back on itself",
         lets_out ? "light that leaves through the mouth is not followed to a second intersection"
                  : "every reflected ray is followed to its next meeting");
-    if (material && material->reflectance <= 0)
+    if (material && !reflects(*material))
       add("light from the field", "absorbed or passed on", "left out: no diffuse light");
+  }
+
+  void surroundings() {
+    for (const Object& object : scene_.surroundings->objects()) {
+      if (object.glass)
+        add(object.name, fmt::format("glass of index {:g}", object.glass->index),
+            "Fresnel's law at its faces, both polarisations inside; dispersion is left out, its edges are "
+            "black");
+      else
+        add(object.name,
+            surviving_share(object.material) > 0 ? "a sheet that light goes on from" : "a black sheet",
+            surviving_share(object.material) > 0 ? "photons go everywhere, not to the mirror alone"
+                                                 : "it takes away what it meets");
+    }
+    for (const MoreField& more : scene_.surroundings->fields())
+      add(more.name, more.field.material() ? "a further field, real" : "a further field, invisible",
+          "a photon map of its own");
+    if (is_direct_sampled(scene_))
+      add("direct light", "some of it goes through things", "photons bring it too, with their noise");
+    else if (scene_.surroundings->may_shade())
+      add("shadow on direct light", "things may stand between", "a ray to every sample asks for them too");
   }
 
   void shadow() {
@@ -122,6 +163,9 @@ class Description {
   void directions() {
     if (scene_.source.is_sampled())
       return add("emission", "all rays of the source", "direct light comes by photons too");
+    if (sends_everywhere(scene_) && !scene_.is_bare())
+      return add("emission", "in all of the source's directions",
+                 "light may come back from what stands about");
     const double power_w = scene_.source.power_w();
     const double share = power_w > 0 ? emission_of(scene_)->power_w() / power_w : 0;
     add("emission", fmt::format("{:.3g} of the light goes where the mirror may be met", share),

@@ -9,8 +9,8 @@
 namespace catoptric::sim {
 namespace {
 
-constexpr std::uint32_t side = 32;  ///< squares along each edge of the field
-static_assert(side * side == FieldCells::count);
+constexpr std::uint32_t cells_across = 32;  ///< squares along each edge of the field
+static_assert(cells_across * cells_across == FieldCells::count);
 
 std::uint32_t step_of(double share, std::uint32_t steps) {
   const double step = share * steps;
@@ -40,8 +40,8 @@ FieldCells FieldCells::rings(double reach_mm) {
 }
 
 std::uint32_t FieldCells::at(const Vector2& plane_mm) const {
-  const std::uint32_t across = step_of(0.5 * (plane_mm.x() / half_width_mm_ + 1), side);
-  const std::uint32_t up = step_of(0.5 * (plane_mm.y() / half_height_mm_ + 1), side);
+  const std::uint32_t across = step_of(0.5 * (plane_mm.x() / half_width_mm_ + 1), cells_across);
+  const std::uint32_t up = step_of(0.5 * (plane_mm.y() / half_height_mm_ + 1), cells_across);
   return spread_bits(across) | (spread_bits(up) << 1);
 }
 

@@ -23,7 +23,9 @@ class EdgeRays {
         !(scene_.source.intensity_w_per_sr(way.normalized()) > 0) || probe_->blocks(from, point, lift_mm_))
       return;
     const Vector3 direction = way.normalized();
-    if (scene_.mirror.reflectance > 0) follow({point, reflect(direction, normal)});
+    // A rough mirror blurs its edges, and a matt one has none to show.
+    if (scene_.mirror.reflectance > 0 && !(scene_.mirror.roughness > 0))
+      follow({point, reflect(direction, normal)});
     if (scene_.mirror.transmittance > 0) land({point, direction}, HUGE_VAL);
   }
 

@@ -196,6 +196,7 @@ double RingsField::half_interval(std::size_t index, double level) const {
 }
 
 std::optional<std::string> rings_objection(const Scene& scene) {
+  if (!scene.is_bare()) return "other things stand about, whose symmetry is not looked at";
   const Vector3 source = scene.source.position_mm();
   const NearField& field = scene.near_field;
   const Tolerance tolerance = Tolerance::for_scale(scene.reflector.profile().diagonal_mm());

@@ -19,16 +19,47 @@ class OpenSpace final : public Probe {
   std::vector<Hit> all_hits(const Ray&, double) override { return {}; }
 };
 
+/// What stands in the way of direct light: the mirror, and what is opaque about it.
+class Shade final : public Probe {
+ public:
+  explicit Shade(const Scene& scene) : mirror_(scene.reflector.probe()), room_(*scene.surroundings) {}
+
+  std::optional<Hit> first_hit(const Ray& ray, double beyond_mm) override {
+    const auto hit = mirror_->first_hit(ray, beyond_mm);
+    const Ray ahead{ray.origin_mm + beyond_mm * ray.direction, ray.direction};
+    const auto stop = room_.first_opaque(ahead, hit ? hit->distance_mm - beyond_mm : HUGE_VAL);
+    if (!stop) return hit;
+    const double distance_mm = *stop + beyond_mm;
+    return Hit{distance_mm, ray.origin_mm + distance_mm * ray.direction, -ray.direction, 0};
+  }
+
+  std::vector<Hit> all_hits(const Ray& ray, double beyond_mm) override {
+    const auto hit = first_hit(ray, beyond_mm);
+    return hit ? std::vector{*hit} : std::vector<Hit>{};
+  }
+
+ private:
+  std::unique_ptr<Probe> mirror_;
+  const Surroundings& room_;
+};
+
+std::unique_ptr<Probe> shade_of(const Scene& scene) {
+  if (scene.surroundings && scene.surroundings->may_shade()) return std::make_unique<Shade>(scene);
+  return scene.reflector.probe();
+}
+
 }  // namespace
 
 std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample> samples) {
   std::vector<double> direct(samples.size());
+  if (is_direct_sampled(scene)) return direct;
   const Profile& profile = scene.reflector.profile();
   const double lift_mm = Tolerance::for_scale(profile.diagonal_mm()).lift_mm;
   const auto shine = [&](std::size_t i, Probe& probe) {
     return scene.source.direct_w_per_mm2(samples[i].point_mm, samples[i].normal, probe, lift_mm);
   };
-  if (is_view_clear(profile, scene.source.position_mm(), scene.source.extent_mm(), samples)) {
+  const bool shaded = scene.surroundings && scene.surroundings->may_shade();
+  if (!shaded && is_view_clear(profile, scene.source.position_mm(), scene.source.extent_mm(), samples)) {
     for (std::size_t i = 0; i < samples.size(); ++i)
       direct[i] = scene.source.unhindered_w_per_mm2(samples[i].point_mm, samples[i].normal);
     return direct;
@@ -36,7 +67,7 @@ std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample
   // One probe a chunk: engines may keep caches in it, and those must not depend on the number of threads.
   constexpr std::size_t chunk = 64;
   side_by_side((samples.size() + chunk - 1) / chunk, [&](std::size_t part) {
-    const auto probe = scene.reflector.probe();
+    const auto probe = shade_of(scene);
     for (std::size_t i = part * chunk; i < std::min(samples.size(), (part + 1) * chunk); ++i)
       direct[i] = shine(i, *probe);
   });

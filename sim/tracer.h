@@ -29,8 +29,9 @@ struct EnergyLedger {
   double emitted_w = 0;   ///< to where the mirror may be met
   double missed_w = 0;    ///< met no mirror: left, or ended on the near field's own surface untouched
   double absorbed_w = 0;  ///< in the mirror
-  double received_w = 0;  ///< absorbed by the near field after touching the mirror, or crossed the invisible
-                          ///< near field's own area against its normal at least once and then left
+  double stopped_w = 0;   ///< in objects that are no field: baffles, walls, glass
+  double received_w = 0;  ///< absorbed by a field after touching mirror or surroundings, or crossed an
+                          ///< invisible field's own area against its normal at least once and then left
   double escaped_w = 0;   ///< touched the mirror and left without being received
   double cut_off_w = 0;   ///< stopped after most_interactions
 
@@ -39,6 +40,7 @@ struct EnergyLedger {
     emitted_w += share * part.emitted_w;
     missed_w += share * part.missed_w;
     absorbed_w += share * part.absorbed_w;
+    stopped_w += share * part.stopped_w;
     received_w += share * part.received_w;
     escaped_w += share * part.escaped_w;
     cut_off_w += share * part.cut_off_w;
@@ -59,12 +61,15 @@ struct PhotonCounts {
   }
 };
 
-/// A photon that met the near field's plane after touching the mirror, as it is handed over by its chunk.
+/// A photon that met a field's plane after touching the mirror, as it is handed over by its chunk.
 struct Crossing {
-  double x_mm, y_mm;              ///< plane coordinates of the near field
-  std::uint64_t photon_and_side;  ///< twice the photon's number, plus 1 when it arrived against the normal
+  double x_mm, y_mm;              ///< plane coordinates of the field
+  std::uint64_t photon_and_side;  ///< twice the photon's number, plus 1 when it arrived against the normal;
+                                  ///< and above these the field (FieldSample::field)
+  static constexpr int field_bits_at = 40;
   Vector2 plane_mm() const { return {x_mm, y_mm}; }
-  std::uint64_t photon() const { return photon_and_side >> 1; }
+  std::uint64_t photon() const { return (photon_and_side & ((std::uint64_t{1} << field_bits_at) - 1)) >> 1; }
+  std::size_t field() const { return photon_and_side >> field_bits_at; }
   bool from_front() const { return (photon_and_side & 1) != 0; }
   bool operator==(const Crossing&) const = default;
 };
@@ -73,7 +78,8 @@ struct Crossing {
 struct StoredChunk {
   BandedPhotons front, back;  ///< by the side they arrived at
 };
-StoredChunk store(std::span<const Crossing> crossings, const RecordedArea& area);
+/// Those of one field.
+StoredChunk store(std::span<const Crossing> crossings, const RecordedArea& area, std::size_t field = 0);
 
 /// Photons after their flight.
 struct TracedPhotons {
@@ -94,13 +100,13 @@ void check(const PhotonOptions& options);
 /// For the beginning of each chunk of photons.  @fails Interrupted once options.stop is true
 void give_up_if_stopped(const PhotonOptions& options);
 
-/// Where photons are sent: a real near field that reflects may light the mirror from anywhere; else only the
-/// mirror's own directions matter (transmission goes straight on, so it needs no others).
+/// Where photons are sent: what reflects may light the mirror from anywhere; else only the mirror's own
+/// directions matter (transmission goes straight on, so it needs no others).
 /// @fails InputError for a bad mirror material
 std::unique_ptr<const Emission> emission_of(const Scene& scene);
 
 /// The share of its power that a photon carries on from its first meeting with the mirror, unless chance
-/// decides there too: of a sampled source all photons are recorded together, and so carry the same.
+/// decides there too: where photons are recorded that met no mirror, all carry the same.
 double first_share(const Scene& scene);
 
 /// What is known of a set of photons after their flight, without the crossings.
@@ -125,6 +131,8 @@ class PhotonFlights {
   /// @in    what the scene borrows must outlive this
   /// @fails InputError for a bad mirror material
   PhotonFlights(const Scene& scene, const RecordedArea& area, FlightSpace space = FlightSpace::as_needed);
+  /// The same with what is recorded of the further fields of the surroundings; without it nothing is.
+  PhotonFlights(const Scene& scene, const RecordedArea& area, std::vector<RecordedArea> more);
   ~PhotonFlights();
 
   /// From now on crossings of another area are handed over.
@@ -151,11 +159,12 @@ class PhotonFlights {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Takes the directions in which photons of one chunk leave for good; called for every chunk once, from
-/// several threads and in any order.
-using TakeDepartures = std::function<void(std::uint64_t chunk, std::span<const Vector3> directions)>;
+/// Takes the rays on which photons of one chunk leave for good, from where they last left the mirror or the
+/// source; called for every chunk once, from several threads and in any order.
+using TakeDepartures = std::function<void(std::uint64_t chunk, std::span<const Ray> rays)>;
 
-/// All of the source's photons through the mirror and away, as if there were no near field.
+/// All of the source's photons through the mirror and away, as if there were no near field and no room: of
+/// the surroundings only what belongs to the luminaire is there.
 /// @out   photon_power_w: of each that leaves; nothing is received
 /// @fails as PhotonFlights::fly
 FlightTotals depart(const Scene& scene, const PhotonOptions& options, const TakeDepartures& take);

@@ -20,11 +20,12 @@ std::optional<std::array<Tube, 2>> halves_of(const Tube& tube, const TubeTracer&
     if (own == landings.end()) return std::nullopt;
     rays[i] = *own;
   }
-  double off_mm = 0, off_slope = 0;
+  double off_mm = 0, off_slope = 0, off_weight = 0;
   for (const std::size_t i : {1, 3}) {
     off_mm = std::max(off_mm, std::abs(tube.at(places[i]) - rays[i].rho_mm));
     off_slope = std::max(off_slope,
                          std::abs(tube.slope(places[i]) - tube.half_width_rad() * rays[i].slope_mm_per_rad));
+    off_weight = std::max(off_weight, std::abs(tube.weight * tube.course.at(places[i]) - rays[i].weight));
   }
   constexpr double counted = 1.0 / 16;
   std::array<Tube, 2> halves;
@@ -38,6 +39,8 @@ std::optional<std::array<Tube, 2>> halves_of(const Tube& tube, const TubeTracer&
     half.end_mm = side == 0 ? b.rho_mm : tube.end_mm;
     half.off_mm = counted * off_mm;
     half.off_slope = counted * off_slope;
+    half.weight = std::max({a.weight, m.weight, b.weight});
+    half.course = WeightCourse::through(a.weight, m.weight, b.weight, weight_misfit_counted * off_weight);
     const double width = half.half_width_rad();
     Hermite{half.begin_mm,
             m.rho_mm,

@@ -218,19 +218,25 @@ class TubeMaker {
             half * b.slope_mm_per_rad};
   }
 
-  /// How far the quintic of an interval's ends and middle is off at the quarters: radius and derivative by x.
+  /// How far the quintic of an interval's ends and middle is off at the quarters, radius and derivative by x,
+  /// and the parabola of the weights.
   struct Misfit {
-    double mm = 0, slope = 0;
+    double mm = 0, slope = 0, weight = 0;
   };
   Misfit misfit(const Interval& interval, std::size_t i) const {
     Tube whole;
     hermite(interval.nodes[0], interval.nodes[2], interval.nodes[4], i).quintic(whole.rho);
     Misfit worst;
+    const double low = landing(interval.nodes[0], i).weight, middle = landing(interval.nodes[2], i).weight,
+                 high = landing(interval.nodes[4], i).weight;
     for (const auto& [node, x] : {std::pair{interval.nodes[1], -0.5}, {interval.nodes[3], 0.5}}) {
       const Landing& ray = landing(node, i);
       worst.mm = std::max(worst.mm, std::abs(whole.at(x) - ray.rho_mm));
       worst.slope =
           std::max(worst.slope, std::abs(whole.slope(x) - 0.5 * width(interval) * ray.slope_mm_per_rad));
+      const double parabola =
+          middle + x * (0.5 * (high - low) + x * (0.5 * (high - middle) - 0.5 * (middle - low)));
+      worst.weight = std::max(worst.weight, std::abs(parabola - ray.weight));
     }
     return worst;
   }
@@ -241,12 +247,13 @@ class TubeMaker {
     const Misfit fit = misfit(interval, i);
     // The derivative's misfit is at most 1.3 times the radius's, unless the sixth derivative is not all.
     const double off = fit.mm + 0.25 * fit.slope;
-    double least = HUGE_VAL, most = -HUGE_VAL;
+    double least = HUGE_VAL, most = -HUGE_VAL, heaviest = 0;
     bool rises = true, falls = true;
     for (const std::size_t node : interval.nodes) {
       const Landing& ray = landing(node, i);
       least = std::min(least, ray.rho_mm);
       most = std::max(most, ray.rho_mm);
+      heaviest = std::max(heaviest, ray.weight);
       rises = rises && ray.slope_mm_per_rad > 0;
       falls = falls && ray.slope_mm_per_rad < 0;
     }
@@ -259,8 +266,9 @@ class TubeMaker {
     if (h_ > 0) {
       constexpr double steepest = 4.6188021535170061;  // of 3 (1 - t^2)^2: 16 / (2 sqrt 3), at t^2 = 1/3
       const double share = ring_share(std::max(0.0, inner - off), h_);
-      error = landing(interval.nodes[2], i).weight * flux_w * share *
-              std::min(kernel_peak_per_mm2(h_), steepest / (pi * h_ * h_ * h_) * off * counted);
+      const double peak = kernel_peak_per_mm2(h_);
+      error = heaviest * flux_w * share * std::min(peak, steepest / (pi * h_ * h_ * h_) * off * counted) +
+              fit.weight * weight_misfit_counted * flux_w * share * peak;
     } else {
       // The pointwise field polishes with rays of its own; it needs the tubes only to find each branch:
       // within 1e-3 of the tube, or of the part's rounding where branches meet in a fold.
@@ -302,7 +310,8 @@ class TubeMaker {
       const Misfit fit = misfit(interval, i);
       for (const std::size_t first : {0, 2})
         emit(nodes[first], nodes[first + 2], i, hermite(nodes[first], nodes[first + 1], nodes[first + 2], i),
-             {counted * fit.mm, counted * fit.slope});
+             {counted * fit.mm, counted * fit.slope, weight_misfit_counted * fit.weight},
+             landing(nodes[first + 1], i).weight);
     }
   }
 
@@ -315,16 +324,21 @@ class TubeMaker {
         Hermite ends = hermite(low, low, high, i);
         ends.middle = 0.5 * (ends.first + ends.last) + 0.25 * (ends.d_first - ends.d_last);
         ends.d_middle = 0.75 * (ends.last - ends.first) - 0.25 * (ends.d_first + ends.d_last);
-        emit(low, high, i, ends, {HUGE_VAL, HUGE_VAL});
+        const double first = landing(low, i).weight, last = landing(high, i).weight;
+        emit(low, high, i, ends, {HUGE_VAL, HUGE_VAL, std::max(first, last)}, 0.5 * (first + last));
       }
     }
   }
 
-  void emit(std::size_t low, std::size_t high, std::size_t i, const Hermite& through, const Misfit& off) {
+  void emit(std::size_t low, std::size_t high, std::size_t i, const Hermite& through, const Misfit& off,
+            double middle_weight) {
     const Landing &first = landing(low, i), &last = landing(high, i);
-    map_.landed_w += flux_between(low, high) * first.weight;
-    Tube tube{theta(low), theta(high), {},           first.rho_mm, last.rho_mm,
-              off.mm,     off.slope,   first.weight, first.path};
+    const WeightCourse course = WeightCourse::through(first.weight, middle_weight, last.weight, off.weight);
+    map_.landed_w += flux_between(low, high) *
+                     (course.level ? first.weight : (first.weight + 4 * middle_weight + last.weight) / 6);
+    const double heaviest = std::max({first.weight, middle_weight, last.weight});
+    Tube tube{theta(low), theta(high), {},       first.rho_mm, last.rho_mm,
+              off.mm,     off.slope,   heaviest, first.path,   course};
     through.quintic(tube.rho);
     map_.tubes.push_back(tube);
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -8,6 +10,32 @@
 
 namespace catoptric::sim {
 
+/// How the weight of rays goes over a tube, where the mirror's reflectance goes with the angle: as a share of
+/// the greatest of three, the parabola through them.
+struct WeightCourse {
+  bool level = true;
+  std::array<double, 3> share = {1, 0, 0};  ///< sum share[k] x^k over x in [-1, 1]
+  double off = 0;                           ///< how far that may be off
+
+  double at(double x) const { return share[0] + x * (share[1] + x * share[2]); }
+  double slope(double x) const { return share[1] + 2 * x * share[2]; }
+  /// The part about `centre` of half width `half`.
+  WeightCourse part(double centre, double half) const {
+    return {level, {at(centre), half * slope(centre), half * half * share[2]}, off};
+  }
+  /// Through weights at -1, 0, 1 that are `off` by so much between them.
+  static WeightCourse through(double first, double middle, double last, double off) {
+    if (first == middle && middle == last) return {};
+    const double most = std::max({first, middle, last});
+    return {false,
+            {middle / most, 0.5 * (last - first) / most, (0.5 * (first + last) - middle) / most},
+            off / most};
+  }
+};
+/// Of the misfit of three rays' parabola at the quarters, what the parabolas of the halves are counted to be
+/// off by: an eighth is left where the weight is smooth, a third where it has a bend.
+inline constexpr double weight_misfit_counted = 0.5;
+
 /// A tube of light: the emission angles between two rays of one path, with their landing radius between as
 /// the quintic through the radii and derivatives of both rays and of a third in the middle.
 struct Tube {
@@ -15,8 +43,9 @@ struct Tube {
   double rho[6];               ///< signed landing radius, sum rho[k] x^k over x in [-1, 1], mm
   double begin_mm, end_mm;     ///< at -1 and 1, the rays' own numbers
   double off_mm, off_slope;    ///< how far the quintic and its derivative by x may be off, mm
-  double weight;
+  double weight;               ///< the greatest of its rays'
   std::uint64_t path;
+  WeightCourse course = {};
   double at(double x) const {
     return rho[0] + x * (rho[1] + x * (rho[2] + x * (rho[3] + x * (rho[4] + x * rho[5]))));
   }

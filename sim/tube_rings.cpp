@@ -65,6 +65,8 @@ __attribute__((always_inline)) inline void place_nodes(const Panel& panel, doubl
     for (std::size_t i = 0; i < lanes; ++i)
       nodes.power[i] *= panel.light.relative(
           cosine_near(panel.sine, panel.cosine, (centre + half * gauss_x[i]) * panel.half_rad));
+  if (!panel.course.level)
+    for (std::size_t i = 0; i < lanes; ++i) nodes.power[i] *= panel.course.at(centre + half * gauss_x[i]);
 }
 
 /// A block as seen from one radius, in kernel radii, added lane by lane.
@@ -166,6 +168,7 @@ Panel part_of(const Panel& whole, double low, double high) {
   part.centre = centre;  // of the tube's x, since wholes are parts of tubes
   part.half = half;
   part.power = whole.power * half;
+  part.course = whole.course.part(centre, half);
   return part;
 }
 
@@ -266,6 +269,7 @@ void TubeRings::add(const Tube& tube, std::size_t index) {
   whole.tube = index;
   whole.half_rad = tube.half_width_rad();
   whole.light = light_;
+  whole.course = tube.course;
   whole.power = 0.5 * light_.power_w * tube.weight * whole.half_rad * kernel_peak_per_mm2(h_);
   const std::vector<double> cuts = cuts_of(tube);
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {

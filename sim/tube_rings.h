@@ -56,6 +56,7 @@ class TubeRings {
     double centre, half;  ///< x of the tube is centre + half x
     double sign;          ///< of the tube's radius
     AxialLight light;
+    WeightCourse course;  ///< factor on the power
     Block nodes;
     double at(double x) const {
       return ring[0] + x * (ring[1] + x * (ring[2] + x * (ring[3] + x * (ring[4] + x * ring[5]))));

@@ -111,7 +111,9 @@ class TubeIrradiance {
   double at(double rho) {
     const double x = place_of(tube_, stretch_, rho), half = tube_.half_width_rad();
     const double slope = tube_.slope(x), theta = tube_.theta_rad(x);
-    const double value = tube_.weight * branch_irradiance(light_, theta, rho, slope / half, axis_);
+    const double full = tube_.weight * branch_irradiance(light_, theta, rho, slope / half, axis_);
+    const WeightCourse& course = tube_.course;
+    const double value = course.level ? full : full * course.at(x);
     const double curve = tube_.curve(x);
     // The place is off by off_mm / slope, which moves the slope and the sine; the slope itself is off, and so
     // is the sine over the radius next to the axis, where the tube's error falls with the distance; where the
@@ -119,7 +121,9 @@ class TubeIrradiance {
     const double share = (2 * tube_.off_slope + 2 * std::abs(curve / slope) * tube_.off_mm +
                           light_.steepness(theta) * half * tube_.off_mm) /
                          std::abs(slope);
-    worst_error_ = std::max(worst_error_, value * share);
+    const double off_weight =
+        course.level ? 0 : course.off + std::abs(course.slope(x) / slope) * tube_.off_mm;
+    worst_error_ = std::max(worst_error_, value * share + full * off_weight);
     if (!std::isfinite(value)) worst_error_ = HUGE_VAL;
     return value;
   }
@@ -152,7 +156,7 @@ class Polisher {
       const Landing* landing = trace(tube, theta);
       if (landing == nullptr) break;
       before = value;
-      value = tube.weight * branch_irradiance(light_, theta, rho, landing->slope_mm_per_rad, axis);
+      value = landing->weight * branch_irradiance(light_, theta, rho, landing->slope_mm_per_rad, axis);
       if (!std::isfinite(value)) return {value, 0};
       const double move = (rho - landing->rho_mm) / landing->slope_mm_per_rad;
       const bool settled = std::abs(move) <= 1e-15 * theta;  // a few roundings of the angle
@@ -217,7 +221,8 @@ class PointwiseAdder {
       }
     }
     for (std::size_t k = 0; axis.exists && k < radii_.size() && radii_[k] <= std::abs(axis.rho); ++k)
-      values_[k] += tube.weight * branch_irradiance(light_, axis.polar, 0, axis.slope, axis);
+      values_[k] += tube.weight * tube.course.at(axis.polar > 0 ? 1 : -1) *
+                    branch_irradiance(light_, axis.polar, 0, axis.slope, axis);
     for (std::size_t i = 0; i < bands.size(); ++i) {
       if (sums[i].suffices)
         take(bands[i], sums[i]);

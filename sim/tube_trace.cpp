@@ -135,7 +135,7 @@ void TubeTracer::follow(Path path, std::vector<Landing>& landings, Dropped& drop
       else
         follow(through, landings, dropped);
     }
-    path.weight *= mirror_.reflectance;
+    path.weight *= mirror_.reflectance_at(std::abs(hit->tx * across_x + hit->tz * across_z));
     if (path.weight < limits_.least_weight) {
       dropped.faint += path.weight;
       return;

@@ -41,6 +41,7 @@ class TubeTracer {
     int most_interactions;
     double least_weight;  ///< a path that splits is given up below this
   };
+  /// @in mirror: specular
   TubeTracer(const Profile& profile, double source_z_mm, const FieldPlane& plane, const Material& mirror,
              const Limits& limits);
 

@@ -30,6 +30,8 @@ void check(const PointSource& source, const Profile& profile, const Material& mi
     defect->where = "mirror";
     throw InputError(std::move(*defect));
   }
+  if (!is_specular(mirror))
+    throw InputError({"the mirror scatters", "tubes", "tubes follow single rays", "take the photon rung"});
   if (!(options.kernel_radius_mm >= 0 && std::isfinite(options.kernel_radius_mm)))
     throw InputError({fmt::format("kernel radius of {} mm", options.kernel_radius_mm), "tubes",
                       "it is positive, or 0 for the pointwise field", ""});
@@ -123,7 +125,8 @@ TubesField tubes_field(const PointSource& source, const Profile& profile, const 
 TubesField tubes_field(const Scene& scene, std::span<const FieldSample> samples,
                        const TubesOptions& options) {
   const auto* source = dynamic_cast<const PointSource*>(&scene.source);
-  if (const auto objection = tubes_objection(scene.source, scene.reflector.profile(), scene.near_field))
+  if (const auto objection =
+          tubes_objection(scene.source, scene.reflector.profile(), scene.mirror, scene.near_field))
     throw InputError({"the rung tubes does not fit the scene", "", *objection, "take the photon rung"});
   std::vector<double> radii;
   radii.reserve(samples.size());
@@ -134,7 +137,7 @@ TubesField tubes_field(const Scene& scene, std::span<const FieldSample> samples,
 }
 
 std::optional<std::string> tubes_objection(const Source& source, const Profile& profile,
-                                           const NearField& near_field) {
+                                           const Material& mirror, const NearField& near_field) {
   const Tolerance tolerance = Tolerance::for_scale(profile.diagonal_mm());
   if (source.is_sampled()) return "the source is known by its rays alone";
   if (source.extent_mm() > 0) return "the source is extended";
@@ -149,6 +152,7 @@ std::optional<std::string> tubes_objection(const Source& source, const Profile& 
   if (std::hypot(normal.x(), normal.y()) > tolerance.angle_rad)
     return fmt::format("the near field is tilted against the axis by {} rad",
                        std::atan2(std::hypot(normal.x(), normal.y()), std::abs(normal.z())));
+  if (!is_specular(mirror)) return "the mirror scatters, and tubes follow single rays";
   if (near_field.material()) return "the near field is a real object, which stops or scatters light";
   return std::nullopt;
 }

@@ -63,6 +63,6 @@ TubesField tubes_field(const Scene& scene, std::span<const FieldSample> samples,
 
 /// Why this rung cannot light the scene, in words, or nothing.
 std::optional<std::string> tubes_objection(const Source& source, const Profile& profile,
-                                           const NearField& near_field);
+                                           const Material& mirror, const NearField& near_field);
 
 }  // namespace catoptric::sim

@@ -130,11 +130,11 @@ class TubeMotions {
 TubesJacobian tubes_jacobian(const PointSource& source, const Profile& profile, const Material& mirror,
                              const FieldPlane& plane, std::span<const double> radii_mm,
                              const TubesOptions& options) {
-  if (!(options.kernel_radius_mm > 0) || mirror.transmittance > 0)
+  if (!(options.kernel_radius_mm > 0) || mirror.transmittance > 0 || mirror.by_angle)
     throw InputError({"no derivatives of this field", "tubes",
-                      "they are those of smoothed light from a mirror "
-                      "that does not transmit",
-                      "give a kernel radius; leave the transmittance out"});
+                      "they are those of smoothed light from a mirror that does not transmit and reflects "
+                      "alike at all angles",
+                      "give a kernel radius; leave the transmittance out, and take one reflectance"});
   TubesJacobian result;
   result.field = tubes_field(source, profile, mirror, plane, radii_mm, options);
   const auto points = profile.points().size();

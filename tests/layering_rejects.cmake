@@ -9,6 +9,8 @@ set(cases
     "sim/a.cpp|#include \"photometry/lm63.h\""
     "src/rayfiles/a.cpp|#include \"sim/emitter.h\""
     "sim/a.cpp|#include \"rayfiles/ray_file.h\""
+    "src/images/a.cpp|#include \"design/target.h\""
+    "sim/a.cpp|#include \"images/image_file.h\""
     "src/design/a.cpp|#include \"report/csv.h\""
     "sim/a.cpp|#include <Geom_BSplineCurve.hxx>"
     "sim/a.h|#include <nanoflann.hpp>"

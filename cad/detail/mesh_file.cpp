@@ -19,14 +19,16 @@
 
 #include "cad/detail/exchange_file.h"
 #include "cad/detail/occt_guard.h"
+#include "cad/detail/shape_facets.h"
 
 namespace catoptric::cad::detail {
 namespace {
 
 constexpr double angle_rad = 0.2;  // of a facet against the surface: smooth to the eye on small features too
 
-/// Puts triangles on the shape's faces and counts them.
-int mesh(const TopoDS_Shape& shape, double chord) {
+}  // namespace
+
+int put_facets(const TopoDS_Shape& shape, double chord) {
   const BRepMesh_IncrementalMesh mesher(shape, chord, false, angle_rad, false);
   if (!mesher.IsDone())
     throw CadError(
@@ -43,6 +45,8 @@ int mesh(const TopoDS_Shape& shape, double chord) {
   return triangles;
 }
 
+namespace {
+
 /// The shape in another unit of length, on its own geometry.
 TopoDS_Shape scaled(const TopoDS_Shape& shape, double factor) {
   gp_Trsf to_unit;
@@ -58,7 +62,7 @@ int write_stl(const TopoDS_Shape& shape, const std::filesystem::path& path, Leng
   return guarded("write the STL file", path.string(), [&] {
     const double factor = 1 / millimetres_per(unit);
     const TopoDS_Shape part = scaled(shape, factor);
-    const int triangles = mesh(part, factor * chord_mm);
+    const int triangles = put_facets(part, factor * chord_mm);
     StlAPI_Writer writer;
     writer.ASCIIMode() = false;
     if (!writer.Write(part, path.c_str()))
@@ -72,7 +76,7 @@ int write_glb(const TopoDS_Shape& shape, const std::filesystem::path& path, cons
   ExchangeSession session;
   return guarded("write the GLB file", path.string(), [&] {
     const TopoDS_Shape part = scaled(shape, 1);  // a copy: the triangles stay off the shape that was given
-    const int triangles = mesh(part, chord_mm);
+    const int triangles = put_facets(part, chord_mm);
     Handle(TDocStd_Document) document;
     XCAFApp_Application::GetApplication()->NewDocument("BinXCAF", document);
     const Handle(XCAFDoc_ShapeTool) shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());

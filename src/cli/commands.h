@@ -51,6 +51,7 @@ ExitCode explain_command(const CommonOptions& options);
 ExitCode tradeoff_command(const CommonOptions& options);
 ExitCode sensitivity_command(const CommonOptions& options);
 ExitCode intensity_command(const CommonOptions& options);
+ExitCode rays_command(const CommonOptions& options);
 ExitCode study_command(const CommonOptions& options);
 ExitCode profile_command(const CommonOptions& options, const ProfileOptions& more);
 ExitCode export_command(const CommonOptions& options, const ExportCommandOptions& more);

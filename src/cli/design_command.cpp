@@ -4,6 +4,7 @@
 
 #include "cli/scene_run.h"
 #include "cli/stop_signal.h"
+#include "report/field_report.h"
 #include "report/run_checkpoint.h"
 #include "report/run_tables.h"
 
@@ -58,6 +59,10 @@ void print_accuracy(const design::Judgement& judgement) {
   if (judgement.accuracy) fmt::print("{}\n", judgement.accuracy->sentence);
 }
 
+void print_field(const design::Scene& scene, const design::Judgement& judgement) {
+  fmt::print("{}", report::text_table(report::field_table(scene, judgement)));
+}
+
 void print_constraints(const design::Scene& scene, const design::Judged& judged) {
   if (judged.constraints.empty()) return;
   fmt::print("{}{}\n", report::text_table(report::constraint_table(scene, judged.constraints)),
@@ -78,6 +83,7 @@ ExitCode design_command(const CommonOptions& options, const DesignOptions& more)
   if (!options.quiet) {
     fmt::print("{}\n{}", result.search.sentence,
                report::text_table(report::summary_table(run.scene, result)));
+    print_field(run.scene, result.best.judgement);
     print_constraints(run.scene, result.best);
     print_accuracy(result.best.judgement);
     fmt::print("{} evaluations in {:.3g} s, {} photons, {:.3g} s in all\n", result.search.evaluations,
@@ -102,6 +108,7 @@ ExitCode simulate_command(const CommonOptions& options) {
   run.line.finish();
   if (!options.quiet) {
     fmt::print("{}", report::text_table(report::simulation_table(run.scene, result)));
+    print_field(run.scene, result.mirror.judgement);
     print_constraints(run.scene, result.mirror);
     print_accuracy(result.mirror.judgement);
     fmt::print("{} photons, {:.3g} s\n", result.photons, result.seconds);

@@ -25,6 +25,7 @@ ExitCode explain_command(const CommonOptions& options) {
   if (scene.accuracy_rel)
     fmt::print("  {:<22}  photons and bandwidth are found until the relative error is at most {:g} (95 %)\n",
                "accuracy", *scene.accuracy_rel);
+  for (const std::string& note : scene.target.notes) fmt::print("  {:<22}  {}\n", "target", note);
   fmt::print("  {:<22}  {}\n", "memory", design::memory_need(scene).sentence);
   if (!scene.variables.empty()) {
     const sim::Plan searched = design::make_plan(scene, design::family_of(scene));

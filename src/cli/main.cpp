@@ -117,6 +117,10 @@ struct Parser {
              ->footer("Example: catoptric intensity data/examples/uniform_disc.toml --set "
                       "intensity.gamma_step=0.5"),
         common, "SCENE.toml");
+    add_common(
+        *app.add_subcommand("rays", "The scene's source, or its luminaire, as a ray file: TM-25 or Zemax")
+             ->footer("Example: catoptric rays data/examples/torch_led.toml --set rays.count=2000000"),
+        common, "SCENE.toml");
     add_common(*app.add_subcommand("study", "Runs a list of variations of a scene and prints one table")
                     ->footer("Example: catoptric study data/paper/table2.toml --out out/table2"),
                common, "STUDY.toml");
@@ -130,6 +134,7 @@ struct Parser {
     if (app.got_subcommand("tradeoff")) return tradeoff_command(common);
     if (app.got_subcommand("sensitivity")) return sensitivity_command(common);
     if (app.got_subcommand("intensity")) return intensity_command(common);
+    if (app.got_subcommand("rays")) return rays_command(common);
     if (app.got_subcommand("profile")) return profile_command(common, profile);
     if (app.got_subcommand("export")) return export_command(common, shape);
     return study_command(common);

@@ -38,6 +38,7 @@ SceneRun::SceneRun(const CommonOptions& options)
 
 void SceneRun::print_files(const report::WrittenFiles& files) const {
   for (const std::string& note : scene.profile_notes) fmt::print("note: {}\n", note);
+  for (const std::string& note : scene.target.notes) fmt::print("note: {}\n", note);
   cli::print_files(files, out);
 }
 

@@ -167,8 +167,11 @@ std::optional<std::string> value_defect(const Candidate& base, SceneVariable var
     if (!(value > 0 && value <= sim::greatest_exponent))
       return fmt::format("an exponent that varies lies above 0, up to {}", sim::greatest_exponent);
   }
-  if (variable == SceneVariable::reflectance && !(value >= 0 && value + base.mirror.transmittance <= 1))
-    return "reflectance lies between 0 and what the transmittance leaves of 1";
+  if (variable == SceneVariable::reflectance) {
+    if (base.mirror.by_angle) return "the mirror's reflectance goes with the angle, and is no single number";
+    if (!(value >= 0 && value + base.mirror.diffuse + base.mirror.transmittance <= 1))
+      return "reflectance lies between 0 and what diffuse reflectance and transmittance leave of 1";
+  }
   return std::nullopt;
 }
 

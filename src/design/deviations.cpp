@@ -90,10 +90,11 @@ Deviation reflectance(const Scene& scene, const Profile& profile) {
   return {"reflectance",
           "reflectance",
           "",
-          "the mirror's reflectance, absolute",
+          scene.mirror.by_angle ? "the mirror's greatest reflectance, absolute; at other angles in proportion"
+                                : "the mirror's reflectance, absolute",
           first_guess_rel,
           -now,
-          1 - scene.mirror.transmittance - now,
+          1 - scene.mirror.diffuse - scene.mirror.transmittance - now,
           [=](double change) -> std::optional<Varied> {
             Varied varied{scene, profile};
             varied.scene.mirror.reflectance = now + change;

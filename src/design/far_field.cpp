@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "design/evaluator.h"
 #include "design/target_smoothing.h"
@@ -41,6 +42,11 @@ class Maker {
     far.scene.near_field =
         sim::NearField::disc(scene.source.position_mm + distance_mm_ * beam_, -beam_, widest_mm);
     far.scene.target = TargetSpec{};
+    far.scene.fields.clear();
+    if (scene.surroundings)
+      far.scene.surroundings = std::make_shared<const sim::Surroundings>(scene.surroundings->luminaire());
+    far.scene.target.free_scale = spec_.free_intensity;
+    far.scene.grid = SampleGrid::area;
     far.scene.model.estimate.neighbours.reset();
     far.scene.model.estimate.kernel_radius_mm = distance_mm_ * std::tan(spec_.resolution_rad);
     far.target.through_kernel = far.target.intensities = true;
@@ -64,9 +70,10 @@ class Maker {
     }
   }
 
-  /// What the source sends straight into a direction; 0 where that depends on more than the angle.
+  /// What the source sends straight into a direction; 0 where that depends on more than the angle, or the
+  /// level of what is wanted is not known.
   double direct_w_per_sr(double angle_rad) const {
-    if (source_->tilt_rad() > 0) return 0;
+    if (source_->tilt_rad() > 0 || spec_.free_intensity) return 0;
     return source_->intensity_w_per_sr(std::cos(angle_rad) * beam_ + std::sin(angle_rad) * across_);
   }
 

@@ -5,6 +5,7 @@
 
 #include "base/ordered_sum.h"
 #include "design/evaluator.h"
+#include "design/sampling.h"
 
 namespace catoptric::design {
 namespace {
@@ -41,10 +42,7 @@ double mean_square(const Changes& changes, Index points, std::optional<Index> le
 }  // namespace
 
 FieldChanger::FieldChanger(const Scene& scene, const Profile& profile)
-    : scene_(scene),
-      profile_(profile),
-      points_(scene.near_field.samples(scene.samples)),
-      samples_(points_.size()) {
+    : scene_(scene), profile_(profile), points_(field_samples(scene)), samples_(points_.size()) {
   for (int i = 0; i < cut_points; ++i) {
     radii_mm_.push_back(scene.near_field.half_width_mm() * i / cut_points);
     points_.push_back({scene.near_field.to_space({radii_mm_.back(), 0.0}), scene.near_field.normal()});

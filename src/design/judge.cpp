@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "base/ordered_sum.h"
@@ -14,30 +13,6 @@
 
 namespace catoptric::design {
 namespace {
-
-/// Mean and variance of the mean, sample by sample, over replicates; one replicate has no variance.
-struct Spread {
-  std::vector<double> mean, variance_of_mean;
-};
-
-using Rows = std::vector<std::vector<double>>;
-
-constexpr std::size_t none = static_cast<std::size_t>(-1);
-
-/// @in left_out: the replicate not counted, or none
-Spread spread(const Rows& rows, std::size_t left_out = none) {
-  const std::size_t count = rows.front().size();
-  const double n = static_cast<double>(rows.size() - (left_out == none ? 0 : 1));
-  Spread result{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t j = 0; i != left_out && j < count; ++j) result.mean[j] += rows[i][j] / n;
-  for (std::size_t i = 0; n > 1 && i < rows.size(); ++i)
-    for (std::size_t j = 0; i != left_out && j < count; ++j) {
-      const double off = rows[i][j] - result.mean[j];
-      result.variance_of_mean[j] += off * off / (n * (n - 1));
-    }
-  return result;
-}
 
 double mean(const std::vector<double>& values) {
   return ordered_sum(values) / static_cast<double>(values.size());
@@ -62,36 +37,25 @@ double debiased_value(Metric metric, const Scene& scene, const Target& target, c
   const std::vector<double> total = sum(sharp.mean, direct);
   const double value = *metric_value(metric, scene, total, target);
   if (more_is_better(metric)) return value;
-  if (metric == Metric::intensity_rmse)
-    return debiased_root(value * value, weighted_mean(sharp.variance_of_mean, target));
+  if (is_of_intensity(metric)) {
+    const double rmse = *metric_value(Metric::intensity_rmse, scene, total, target);
+    const double clean = debiased_root(rmse * rmse, weighted_mean(sharp.variance_of_mean, target));
+    return metric == Metric::intensity_rmse ? clean : rmse > 0 ? value * clean / rmse : 0.0;
+  }
   const double rmse = from_w_per_m2(*metric_value(Metric::rmse, scene, total, target));
   const double clean = debiased_root(rmse * rmse, weighted_mean(sharp.variance_of_mean, target));
   return metric == Metric::rmse ? to_w_per_m2(clean) : rmse > 0 ? value * clean / rmse : 0.0;
 }
 
-/// Half width, in standard errors, of an interval that holds the truth with a probability of 95 %.
-double student95(std::size_t replicates) {
-  if (replicates < 2) return 0;
-  const boost::math::students_t student(static_cast<double>(replicates - 1));
-  return boost::math::quantile(boost::math::complement(student, 0.025));
-}
-
 Figure judge_metric(Metric metric, const Scene& scene, const Target& target, const Rows& reflected,
                     const Rows& sharp, const std::vector<double>& direct) {
-  Rows values;
-  for (const auto& field : reflected)
-    values.push_back({*metric_value(metric, scene, sum(direct, field), target)});
-  const Spread value = spread(values);
-  Figure figure{value.mean[0], std::sqrt(value.variance_of_mean[0]), 0, {}};
-  figure.bias = figure.value - debiased_value(metric, scene, target, spread(sharp), direct);
-  if (sharp.size() == 1) figure.half_interval = 0;  // tubes: nothing is random
-  if (sharp.size() < 3) return figure;              // without one of two there is no noise left to take off
-  Rows without;
-  for (std::size_t i = 0; i < sharp.size(); ++i)
-    without.push_back({debiased_value(metric, scene, target, spread(sharp, i), direct)});
-  const double shrunk = static_cast<double>(sharp.size() - 1);  // what leaving one out hides of the spread
-  figure.half_interval = student95(sharp.size()) * shrunk * std::sqrt(spread(without).variance_of_mean[0]);
-  return figure;
+  const auto of_one = [&](const std::vector<double>& field) {
+    return std::vector<double>{*metric_value(metric, scene, sum(direct, field), target)};
+  };
+  const auto of_all = [&](const Spread& fields) {
+    return std::vector<double>{debiased_value(metric, scene, target, fields, direct)};
+  };
+  return figures_of(reflected, sharp, of_one, of_all).front();
 }
 
 /// The scene with a candidate's source: a share of the power is a share of that source's.
@@ -157,8 +121,10 @@ void add_intensity(Judgement& judgement, const Target& target, const Candidate& 
   const std::vector<double> direct = far.as_intensity(std::move(list.front().direct));
   if (list.front().rung != sim::Rung::tubes)
     judgement.far_photons = far.scene.model.photons.photons * list.size();
-  take_figure(judgement, far.scene, Metric::intensity_rmse,
-              judge_metric(Metric::intensity_rmse, far.scene, far.target, reflected, reflected, direct));
+  for (const Metric metric : {Metric::relative_intensity_rmse, Metric::intensity_rmse})
+    if (metric_value(metric, far.scene, far.target.irradiance_w_per_mm2, far.target))
+      take_figure(judgement, far.scene, metric,
+                  judge_metric(metric, far.scene, far.target, reflected, reflected, direct));
 }
 
 /// A field that reads dark only because no photon lies in any kernel would be stated without noise.
@@ -208,6 +174,8 @@ Judgement judge(const Scene& scene, const Target& target, const Candidate& candi
     judgement.counts.add(each.counts);
   }
   fill_fields(judgement, reflected, sharp);
+  judgement.field = field_figures(scene, target.samples, judgement.direct, reflected, sharp);
+  judgement.further = further_figures(scene, target.samples, judgement.direct, reflected, sharp);
   require_seen_light(scene, judgement);
   // Where the target is blurred alike, it is the blurred field that compares to it.
   fill_metrics(judgement, with_source(scene, candidate), target, reflected,
@@ -240,6 +208,7 @@ Judgement judge_to_accuracy(const Scene& scene, const Target& target, const Cand
   judgement.counts = field.counts;
   judgement.direct = std::move(field.direct);
   fill_fields(judgement, field.by_set, field.by_set);
+  judgement.field = field_figures(scene, target.samples, judgement.direct, field.by_set, field.by_set);
   judgement.field_bias_w_per_mm2 =
       field.bias_rel * root_mean_square(sum(judgement.direct, judgement.reflected));
   fill_metrics(judgement, with_source(scene, candidate), target, field.by_set, field.by_set);

@@ -4,21 +4,13 @@
 #include <optional>
 #include <vector>
 
+#include "design/field_figures.h"
+#include "design/replicates.h"
 #include "design/scene.h"
 #include "design/target.h"
 #include "sim/accuracy.h"
 
 namespace catoptric::design {
-
-/// The objective with what is known of its error: the truth lies near value - bias.
-struct Figure {
-  double value = 0;  ///< mean over replicates of the objective as the search computes it
-  double noise = 0;  ///< standard error of `value`, from the replicates' spread
-  double bias = 0;   ///< estimated systematic part of `value`: photon noise that eq. 7 counts as error, and
-                     ///< the kernel's blur
-  std::optional<double> half_interval;  ///< value - bias give or take this holds the truth with a probability
-                                        ///< of 95 %; nothing where too few replicates show a spread
-};
 
 /// One metric in its own unit and sense.
 struct MetricFigure {
@@ -42,9 +34,11 @@ struct Judgement {
   sim::Rung rung = sim::Rung::photons;
   Figure objective;  ///< as the search makes it small; all 0 when the scene has no target
   bool has_objective = false;
-  std::vector<MetricFigure> metrics;  ///< every metric that has a value here, searched or not
-  double kernel_radius_mm = 0;        ///< mean over the samples; 0: the field itself, without a kernel
-  std::uint64_t photons = 0;          ///< of one evaluation
+  std::vector<MetricFigure> metrics;    ///< every metric that has a value here, searched or not
+  FieldFigures field;                   ///< the near field by itself, whatever is wanted
+  std::vector<FurtherFigures> further;  ///< the further fields likewise
+  double kernel_radius_mm = 0;          ///< mean over the samples; 0: the field itself, without a kernel
+  std::uint64_t photons = 0;            ///< of one evaluation
   std::uint64_t replicates = 0;
   std::uint64_t far_photons = 0;          ///< of all evaluations of the intensity
   std::vector<double> direct, reflected;  ///< W/mm^2, means over replicates

@@ -11,8 +11,9 @@
 namespace catoptric::design {
 namespace {
 
-constexpr std::array metrics{Metric::rmse,       Metric::relative_rmse, Metric::enclosed_flux,
-                             Metric::uniformity, Metric::efficiency,    Metric::intensity_rmse};
+constexpr std::array metrics{
+    Metric::rmse,      Metric::relative_rmse, Metric::enclosed_flux,           Metric::uniformity,
+    Metric::diversity, Metric::efficiency,    Metric::relative_intensity_rmse, Metric::intensity_rmse};
 
 /// The target at the level that comes nearest to the field: the least squares' one.
 std::vector<double> fitted(std::span<const double> total, const Target& target) {
@@ -29,6 +30,10 @@ std::vector<double> fitted(std::span<const double> total, const Target& target) 
   return wanted;
 }
 
+bool is_relative(Metric metric) {
+  return metric == Metric::relative_rmse || metric == Metric::relative_intensity_rmse;
+}
+
 /// With a free scale a relative error refers to the field itself, so that it lies between 0 and 1.
 std::optional<double> error(Metric metric, const Scene& scene, std::span<const double> total,
                             const Target& target) {
@@ -43,7 +48,8 @@ std::optional<double> error(Metric metric, const Scene& scene, std::span<const d
   return field > 0 ? rmse / field : 1.0;
 }
 
-std::optional<double> uniformity(std::span<const double> total, const Target& target) {
+/// Least irradiance on the lit part, over its mean or over the greatest.
+std::optional<double> evenness(Metric metric, std::span<const double> total, const Target& target) {
   std::vector<double> lit, weights;
   for (std::size_t i = 0; i < total.size(); ++i) {
     const double weight = target.weights.empty() ? 1.0 : target.weights[i];
@@ -52,28 +58,36 @@ std::optional<double> uniformity(std::span<const double> total, const Target& ta
     weights.push_back(weight);
   }
   if (lit.empty()) return std::nullopt;
-  const double least = *std::min_element(lit.begin(), lit.end());
+  const auto [least, greatest] = std::minmax_element(lit.begin(), lit.end());
+  const double low = *least, high = *greatest;
+  if (metric == Metric::diversity) return high > 0 ? low / high : 0.0;
   for (std::size_t i = 0; i < lit.size(); ++i) lit[i] *= weights[i];
   const double mean = ordered_sum(lit) / ordered_sum(weights);
-  return mean > 0 ? least / mean : 0.0;
+  return mean > 0 ? low / mean : 0.0;
 }
 
-std::optional<double> flux_share(const Scene& scene, std::span<const double> total,
+std::optional<double> flux_share(const Scene& scene, std::span<const double> total, const Target& target,
                                  const std::vector<char>& counted) {
+  const bool alike = target.areas_mm2.empty();
   std::vector<double> values;
   for (std::size_t i = 0; i < total.size(); ++i)
-    if (counted[i]) values.push_back(total[i]);
+    if (counted[i]) values.push_back(total[i] * (alike ? 1.0 : target.areas_mm2[i]));
   if (values.empty()) return std::nullopt;
-  return ordered_sum(values) * scene.near_field.area_mm2() / static_cast<double>(total.size()) /
-         scene.source.power_w;
+  const double share =
+      alike ? scene.near_field.area_mm2() / static_cast<double>(total.size()) : 1.0;  // of each
+  return ordered_sum(values) * share / scene.source.power_w;
 }
 
 }  // namespace
 
 std::span<const Metric> all_metrics() { return metrics; }
 
+bool is_of_intensity(Metric metric) {
+  return metric == Metric::intensity_rmse || metric == Metric::relative_intensity_rmse;
+}
+
 bool more_is_better(Metric metric) {
-  return metric != Metric::rmse && metric != Metric::relative_rmse && metric != Metric::intensity_rmse;
+  return metric != Metric::rmse && metric != Metric::relative_rmse && !is_of_intensity(metric);
 }
 
 std::string objective_name(Metric metric) {
@@ -90,20 +104,22 @@ std::string objective_unit(const Scene& scene) { return unit(scene.search.metric
 std::optional<double> metric_value(Metric metric, const Scene& scene, std::span<const double> total_w_per_mm2,
                                    const Target& target) {
   if (target.irradiance_w_per_mm2.empty()) return std::nullopt;
-  if (target.intensities != (metric == Metric::intensity_rmse)) return std::nullopt;
+  if (target.intensities != is_of_intensity(metric)) return std::nullopt;
   switch (metric) {
     case Metric::rmse:
     case Metric::relative_rmse:
     case Metric::intensity_rmse:
+    case Metric::relative_intensity_rmse:
       return error(metric, scene, total_w_per_mm2, target);
     case Metric::enclosed_flux:
-      return flux_share(scene, total_w_per_mm2, target.within_reach);
+      return flux_share(scene, total_w_per_mm2, target, target.within_reach);
     case Metric::uniformity:
-      return uniformity(total_w_per_mm2, target);
+    case Metric::diversity:
+      return evenness(metric, total_w_per_mm2, target);
     case Metric::efficiency:
       break;
   }
-  return flux_share(scene, total_w_per_mm2, target.lit);
+  return flux_share(scene, total_w_per_mm2, target, target.lit);
 }
 
 double as_objective(Metric metric, double value) { return more_is_better(metric) ? 1 - value : value; }
@@ -119,23 +135,30 @@ void require_metric(const Scene& scene, const Target& target) {
     throw scene.settings.error("search.metric", "says nothing about a target of free scale",
                                "the darkest field fits best when the level is free",
                                "search.metric = \"relative-rmse\"");
-  if (metric == Metric::intensity_rmse) {
+  if (is_of_intensity(metric)) {
     if (!target.far)
       throw scene.settings.error("search.metric", "no intensity is wanted", "it compares with a table",
                                  "target.intensity_file");
     if (!scene.search.kernels_mm.empty())
       throw scene.settings.error("search.kernels", "has no effect on intensities", "these are lengths",
                                  "a larger target.intensity_resolution");
+    if (scene.target.free_intensity && metric == Metric::intensity_rmse)
+      throw scene.settings.error("search.metric", "says nothing about an intensity of free scale",
+                                 "the darkest lamp fits best when the level is free",
+                                 "search.metric = \"relative-intensity-rmse\"");
+    if (!metric_value(metric, target.far->scene, target.far->target.irradiance_w_per_mm2, target.far->target))
+      throw scene.settings.error("search.metric", "the intensity wanted is 0 everywhere",
+                                 "relative-intensity-rmse divides by its root mean square",
+                                 "search.metric = \"intensity-rmse\"");
     return;
   }
   // the target itself stands for the field: the relative error of a dark one has no meaning
   if (!metric_value(metric, scene, target.irradiance_w_per_mm2, target))
     throw scene.settings.error(
         "search.metric", "the target is dark everywhere",
-        metric == Metric::relative_rmse
-            ? "relative-rmse divides by the target's root mean square"
-            : std::string(name(metric)) + " looks at its lit part, at the samples",
-        metric == Metric::relative_rmse ? "search.metric = \"rmse\"" : "near_field.samples, or the target");
+        is_relative(metric) ? "relative-rmse divides by the target's root mean square"
+                            : std::string(name(metric)) + " looks at its lit part, at the samples",
+        is_relative(metric) ? "search.metric = \"rmse\"" : "near_field.samples, or the target");
 }
 
 }  // namespace catoptric::design

@@ -70,6 +70,7 @@ std::optional<RadialTarget> radial_target(const Scene& scene) {
     case TargetKind::none:
     case TargetKind::reflector:
     case TargetKind::csv:
+    case TargetKind::image:
       break;
   }
   return std::nullopt;

@@ -16,6 +16,7 @@
 #include "design/refinement.h"
 #include "design/scene_defaults.h"
 #include "design/source_settings.h"
+#include "design/surface_settings.h"
 #include "design/tailored_settings.h"
 #include "design/target_settings.h"
 #include "design/variables.h"
@@ -33,17 +34,6 @@ Vector3 direction(const Settings& settings, const char* path) {
   const Vector3 v = vector(settings, path);
   require_direction(settings, path, v);
   return v;
-}
-
-sim::Material material(const Settings& settings, const std::string& table) {
-  const sim::Material result{*settings.number(table + ".reflectance"),
-                             *settings.number(table + ".transmittance")};
-  if (result.reflectance + result.transmittance > 1)
-    throw settings.error(
-        table + ".transmittance", "more light leaves than arrives",
-        fmt::format("reflectance {} + transmittance {} is above 1", result.reflectance, result.transmittance),
-        "lower one of them");
-  return result;
 }
 
 Profile profile(const Settings& settings, const std::string& table, double unit_mm) {
@@ -72,8 +62,7 @@ Profile profile(const Settings& settings, const std::string& table, double unit_
 sim::NearField near_field(const Settings& settings, double unit_mm) {
   const Vector3 center_mm = vector(settings, "near_field.center", unit_mm);
   const Vector3 normal = direction(settings, "near_field.normal");
-  std::optional<sim::Material> surface;
-  if (*settings.boolean("near_field.real")) surface = material(settings, "near_field");
+  const std::optional<sim::Material> surface = near_field_material(settings);
   if (settings.text("near_field.shape") == "disc")
     return sim::NearField::disc(center_mm, normal, *settings.number("near_field.radius") * unit_mm, surface);
   const Vector3 along = direction(settings, "near_field.along");
@@ -102,6 +91,7 @@ TargetSpec target(const Settings& settings, double unit_mm, const sim::NearField
   if (settings.text("target.kind") == "reflector") reference = profile(settings, "target", unit_mm);
   TargetSpec spec = target_spec(settings, unit_mm, std::move(reference));
   check_across_axis(settings, spec, field);
+  add_field_notes(spec, field);
   return spec;
 }
 
@@ -130,7 +120,7 @@ ModelSpec model(const Settings& settings, double unit_mm) {
 
 Metric metric(const std::string& text) {
   for (Metric each : {Metric::relative_rmse, Metric::enclosed_flux, Metric::uniformity, Metric::efficiency,
-                      Metric::intensity_rmse})
+                      Metric::intensity_rmse, Metric::diversity, Metric::relative_intensity_rmse})
     if (text == name(each)) return each;
   return Metric::rmse;
 }
@@ -304,7 +294,7 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
   sim::NearField field = near_field(settings, unit_mm);
   TargetSpec desired = target(settings, unit_mm, field);
   if (desired.kind == TargetKind::paraboloid) check_paraboloid(settings, source, field);
-  const sim::Material mirror = material(settings, "reflector");
+  const sim::Material mirror = mirror_material(settings);
   const Candidate written{base, source, mirror};
   std::vector<optim::Variable> decision = variables(settings, written, unit);
   SearchSpec sought = search(settings, unit_mm);
@@ -324,6 +314,9 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
               .mirror = mirror,
               .near_field = std::move(field),
               .samples = static_cast<std::size_t>(*settings.integer("near_field.samples")),
+              .surroundings = read_surroundings(settings, unit_mm),
+              .fields = read_fields(settings),
+              .grid = settings.text("near_field.grid") == "en12464" ? SampleGrid::en12464 : SampleGrid::area,
               .target = std::move(desired),
               .tailored = tailored(settings, unit_mm),
               .model = model(settings, unit_mm),
@@ -338,6 +331,9 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
                             *settings.text("intensity.luminaire"), *settings.text("intensity.manufacturer"),
                             *settings.text("intensity.lamp"), *settings.text("intensity.issue_date"),
                             *settings.number("intensity.input_power")},
+              .rays = {settings.text("rays.format") == "zemax",
+                       static_cast<std::uint64_t>(*settings.integer("rays.count")),
+                       settings.text("rays.of") == "luminaire"},
               .export_options = export_options(settings, unit_mm)};
   scene.settings = std::move(settings);
   return scene;
@@ -350,8 +346,9 @@ std::string_view name(Engine engine) {
 }
 
 std::string_view name(Metric metric) {
-  constexpr std::string_view names[] = {"rmse",       "relative-rmse", "enclosed-flux",
-                                        "uniformity", "efficiency",    "intensity-rmse"};
+  constexpr std::string_view names[] = {
+      "rmse",       "relative-rmse",  "enclosed-flux", "uniformity",
+      "efficiency", "intensity-rmse", "diversity",     "relative-intensity-rmse"};
   return names[static_cast<std::size_t>(metric)];
 }
 
@@ -371,6 +368,17 @@ Scene make_scene(Settings settings) {
   Scene scene = written_scene(std::move(settings));
   if (scene.settings.text("start") != "tailored") return scene;
   std::vector<std::string> notes = scene.profile_notes;
+  if (scene.surroundings) {
+    notes.push_back("tailored as if mirror and near field stood alone; figures are those of the whole scene");
+    scene.surroundings = nullptr;
+    scene.fields.clear();
+  }
+  if (scene.near_field.shape() == sim::NearField::Shape::rectangle) {
+    // A target along the radius is made on the disc that holds the rectangle's sides.
+    const sim::NearField& field = scene.near_field;
+    scene.near_field = sim::NearField::disc(field.center_mm(), field.normal(),
+                                            std::max(field.half_width_mm(), field.half_height_mm()));
+  }
   Settings tailored = tailored_settings(scene, from_nothing, notes);
   return build_scene(std::move(tailored), std::move(notes));
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "design/curvature_profile.h"
 #include "design/free_profile.h"
 #include "design/settings.h"
+#include "design/surroundings_settings.h"
 #include "design/tailored_curve.h"
 #include "optim/problem.h"
 #include "sim/near_field.h"
@@ -23,8 +25,10 @@
 
 namespace catoptric::design {
 
+struct Picture;
+
 /// uniform and ring are zones: one, and two.
-enum class TargetKind { none, paraboloid, reflector, csv, zones, gaussian, radial };
+enum class TargetKind { none, paraboloid, reflector, csv, zones, gaussian, radial, image };
 
 /// Where the desired irradiance comes from.
 struct TargetSpec {
@@ -41,8 +45,14 @@ struct TargetSpec {
   double reach_mm = 0;  ///< zones, gaussian, radial: nothing is wanted beyond
   std::vector<double> angles_rad, intensities_w_per_sr;  ///< wanted from afar; empty: nothing
   double resolution_rad = 0;                             ///< of angles there
+  bool free_intensity = false;                           ///< of these only the shape is wanted
+  std::shared_ptr<const Picture> picture;                ///< image
+  std::vector<std::string> notes;                        ///< what is worth telling, in sentences
   bool free_scale = false;  ///< only the shape is wanted: its level is the program's to choose
 };
+
+/// How the near field's samples lie: even by area, or on the measuring grid of EN 12464-1.
+enum class SampleGrid { area, en12464 };
 
 enum class Engine { meridian, occt, mesh };
 std::string_view name(Engine engine);
@@ -59,7 +69,16 @@ struct ModelSpec {
   std::uint64_t most_photons;  ///< that proving an accuracy may spend
 };
 
-enum class Metric { rmse, relative_rmse, enclosed_flux, uniformity, efficiency, intensity_rmse };
+enum class Metric {
+  rmse,
+  relative_rmse,
+  enclosed_flux,
+  uniformity,
+  efficiency,
+  intensity_rmse,
+  diversity,
+  relative_intensity_rmse
+};
 std::string_view name(Metric metric);
 
 /// What a search may move of the shape: named components, all of the profile, or its curvature.
@@ -120,6 +139,13 @@ struct IntensitySpec {
   double input_w = 0;
 };
 
+/// What `rays` writes.
+struct RayOutputSpec {
+  bool is_zemax;        ///< else IES TM-25-13
+  std::uint64_t count;  ///< that the source sends out
+  bool of_luminaire;    ///< else of the source alone
+};
+
 struct Scene {
   Settings settings;  ///< every key with its value, defaults included: what scene.toml holds
   std::string title;
@@ -133,6 +159,9 @@ struct Scene {
   sim::Material mirror;
   sim::NearField near_field;
   std::size_t samples;
+  std::shared_ptr<const sim::Surroundings> surroundings;  ///< null: nothing stands about
+  std::vector<FieldSpec> fields;                          ///< of the surroundings
+  SampleGrid grid;
   TargetSpec target;
   TailoredSpec tailored;
   ModelSpec model;
@@ -143,6 +172,7 @@ struct Scene {
   TradeoffSpec tradeoff;
   SensitivitySpec sensitivity;
   IntensitySpec intensity;
+  RayOutputSpec rays;
   cad::ExportOptions export_options;
 
   /// A mirror of this shape in the scene as it is written.

@@ -8,7 +8,10 @@
 #include "base/profile.h"
 #include "base/profile_limits.h"
 #include "cad/profile_import.h"
+#include "design/sampling.h"
 #include "design/source_settings.h"
+#include "design/surface_settings.h"
+#include "design/surroundings_settings.h"
 #include "design/target_settings.h"
 
 namespace catoptric::design {
@@ -100,15 +103,6 @@ void complete_near_field(Settings& settings) {
     const bool vertical = std::abs(n[0]) <= 0.9 * std::hypot(n[0], n[1], n[2]);
     settings.fill("near_field.along", vertical ? "[1.0, 0.0, 0.0]" : "[0.0, 1.0, 0.0]");
   }
-  if (*settings.boolean("near_field.real")) {
-    settings.fill("near_field.reflectance", "0.0");
-    settings.fill("near_field.transmittance", "0.0");
-  } else {
-    for (const char* key : {"near_field.reflectance", "near_field.transmittance"})
-      if (settings.has(key))
-        throw settings.error(key, "an invisible near field has no material", "it only registers light",
-                             "near_field.real = true");
-  }
 }
 
 void complete_reference(Settings& settings) {
@@ -199,9 +193,12 @@ std::vector<std::string> complete(Settings& settings) {
   else if (settings.has("reflector.wall_side"))
     throw settings.error("reflector.wall_side", "stands alone", "there is no wall", "reflector.wall = 1.0");
   complete_near_field(settings);
+  complete_surfaces(settings);
   complete_reference(settings);
   complete_target(settings);
+  complete_samples(settings);
   complete_bandwidth(settings);
+  complete_surroundings(settings);
   return notes;
 }
 

@@ -16,6 +16,14 @@ std::string number(double value) {
   return text;
 }
 
+/// A name as a key of TOML: bare where that is allowed.
+std::string key(const std::string& name) {
+  const bool bare = std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+  return bare && !name.empty() ? name : quoted(name);
+}
+
 struct ValueText {
   std::string operator()(const std::string& value) const { return quoted(value); }
   std::string operator()(std::int64_t value) const { return fmt::format("{}", value); }
@@ -40,11 +48,9 @@ std::string scene_text(const Scene& scene) {
     const std::string table = dot == std::string::npos ? "" : path.substr(0, dot);
     if (table != open_table) {
       const auto dot_before = table.find('.');
-      const bool quote =
-          table.find('.', dot_before + 1) != std::string::npos && dot_before != std::string::npos;
-      text += quote
-                  ? fmt::format("\n[{}.\"{}\"]\n", table.substr(0, dot_before), table.substr(dot_before + 1))
-                  : fmt::format("\n[{}]\n", table);
+      text += dot_before == std::string::npos ? fmt::format("\n[{}]\n", table)
+                                              : fmt::format("\n[{}.{}]\n", table.substr(0, dot_before),
+                                                            key(table.substr(dot_before + 1)));
       open_table = table;
     }
     text += fmt::format("{} = {}\n", path.substr(dot == std::string::npos ? 0 : dot + 1),
@@ -56,11 +62,11 @@ std::string scene_text(const Scene& scene) {
   };
   for (const Key& key : scene_keys())
     if (key.path.find('*') == std::string_view::npos) write_set(key.path);
-  constexpr std::string_view one_of_several = "sources.*.";
-  for (const std::string& name : scene.settings.names_under("sources"))
-    for (const Key& key : scene_keys())
-      if (key.path.starts_with(one_of_several))
-        write_set("sources." + name + "." + std::string(key.path.substr(one_of_several.size())));
+  for (const std::string several : {"sources", "fields", "objects"})
+    for (const std::string& name : scene.settings.names_under(several))
+      for (const Key& key : scene_keys())
+        if (key.path.starts_with(several + ".*."))
+          write_set(fmt::format("{}.{}.{}", several, name, key.path.substr(several.size() + 3)));
   std::vector<std::string> listed = scene.settings.names_under("variables");  // all that free ones start from
   if (scene.search.free == Freedom::listed) listed = names(scene.variables);
   for (const std::string& name : listed)

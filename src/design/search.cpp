@@ -123,7 +123,7 @@ double value_at(const Scene& scene, sim::Rung rung, const Target& target, const 
   if (!candidate) return std::numeric_limits<double>::infinity();
   if (const double broken = violation(scene.constraints, candidate->profile); broken > 0)
     return infeasible_objective(broken);
-  if (scene.search.metric == Metric::intensity_rmse)
+  if (is_of_intensity(scene.search.metric))
     return objective(target.far->scene, intensity_by_rung(*target.far, rung, *candidate, search_stream),
                      target.far->target);
   const std::vector<double> total = total_by_rung(scene, rung, *candidate, target.samples, search_stream);

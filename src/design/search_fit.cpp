@@ -94,10 +94,10 @@ void require_fit(const Scene& scene, sim::Rung rung) {
       refuse("its derivatives are by the mirror's shape, not by " + variable.name);
   if (scene.search.free == Freedom::curvature)
     refuse("its derivatives are by control points, not by curvatures");
-  if (scene.search.metric == Metric::intensity_rmse || more_is_better(scene.search.metric) ||
-      scene.target.free_scale)
+  if (is_of_intensity(scene.search.metric) || more_is_better(scene.search.metric) || scene.target.free_scale)
     refuse("it makes rmse or relative-rmse small, against a target of absolute scale");
   if (scene.mirror.transmittance > 0) refuse("its derivatives are for mirrors that let no light through");
+  if (scene.mirror.by_angle) refuse("its derivatives are for mirrors that reflect alike at all angles");
 }
 
 optim::LeastSquaresProblem fit_problem(const Scene& scene, const Target& target) {

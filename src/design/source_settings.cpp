@@ -200,6 +200,12 @@ const char* power_key(LightQuantity quantity) {
   return quantity == LightQuantity::luminous ? "source.flux" : "source.power";
 }
 
+LightQuantity light_quantity(const Settings& settings) {
+  const std::vector<std::string> names = settings.names_under("sources");
+  const std::string first = names.empty() ? "source" : "sources." + names.front();
+  return settings.has(first + ".flux") ? LightQuantity::luminous : LightQuantity::radiant;
+}
+
 void complete_source(Settings& settings) {
   const std::vector<std::string> names = settings.names_under("sources");
   if (!names.empty()) return complete_group(settings, names);

@@ -12,6 +12,10 @@ void complete_source(Settings& settings);
 /// The key that says how much light a source has: "source.power" or "source.flux".
 const char* power_key(LightQuantity quantity);
 
+/// Whether the scene is in W or in lm: as its sources are.
+/// @in    settings whose sources are complete
+LightQuantity light_quantity(const Settings& settings);
+
 /// The source of complete settings.
 /// @fails InputError for an axis without direction
 SourceSpec source_spec(const Settings& settings, double unit_mm);

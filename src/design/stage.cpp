@@ -16,7 +16,7 @@ std::unique_ptr<Reflector> make_reflector(const ModelSpec& model, const Profile&
 Stage::Stage(const Scene& spec, const Candidate& candidate)
     : source(make_source(candidate.source)),
       mirror(make_reflector(spec.model, candidate.profile)),
-      scene{*source, *mirror, candidate.mirror, spec.near_field} {}
+      scene{*source, *mirror, candidate.mirror, spec.near_field, spec.surroundings.get()} {}
 
 sim::ModelRequest model_request(const Scene& scene) {
   sim::ModelRequest request{scene.model.estimate, scene.model.rung, {}};

@@ -48,6 +48,14 @@ void check_symmetry(const Scene& scene, double apex_side) {
   if (normal.z() * apex_side < 0)
     refuse(scene, "near_field.normal", "the near field looks away from the mirror",
            "light from the mirror would arrive at its back", "turn the normal over");
+  if (scene.mirror.by_angle)
+    refuse(scene, scene.settings.has("reflector.index") ? "reflector.index" : "reflector.angles",
+           "a tailored start needs one reflectance for all angles",
+           "its flux balance is made before the mirror, whose angles nobody knows then",
+           "reflector.reflectance for the tailored mirror; then a search from it with the angles");
+  if (scene.mirror.diffuse > 0)
+    refuse(scene, "reflector.diffuse", "a tailored start needs a mirror that is not matt",
+           "its flux balance follows single rays", "reflector.diffuse = 0, then a search from that mirror");
   if (!(scene.mirror.reflectance > 0))
     refuse(scene, "reflector.reflectance", "a mirror that reflects nothing cannot be tailored", "",
            "reflectance = 0.9");
@@ -82,6 +90,8 @@ class Maker {
     double level = 1;
     std::vector<std::string> notes;
     if (scene_.target.free_scale) level = free_level(notes);
+    if (scene_.mirror.roughness > 0)
+      notes.push_back("the mirror is made as if it were smooth; its roughness then blurs the light");
     WantedLight wanted = wanted_at(level);
     const double unreachable = check_direct(level, notes);
     FluxMap map(flux_, scene_.mirror.reflectance, wanted);

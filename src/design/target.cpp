@@ -12,7 +12,10 @@
 #include "design/csv_table.h"
 #include "design/evaluator.h"
 #include "design/far_field.h"
+#include "design/field_targets.h"
+#include "design/picture.h"
 #include "design/radial_target.h"
+#include "design/sampling.h"
 #include "design/stage.h"
 #include "design/target_smoothing.h"
 #include "sim/accuracy.h"
@@ -29,7 +32,7 @@ double radius_mm(const sim::FieldSample& sample) {
 }
 
 Target from_radius(const Scene& scene) {
-  Target target{scene.near_field.samples(scene.samples), {}};
+  Target target{field_samples(scene), {}};
   const RadialTarget wanted = *radial_target(scene);
   for (const sim::FieldSample& sample : target.samples)
     target.irradiance_w_per_mm2.push_back(wanted.total_w_per_mm2(radius_mm(sample)));
@@ -95,12 +98,18 @@ double weight_at(const TargetSpec& spec, double radius) {
   return (1 - share) * spec.table_weights[next - 1] + share * spec.table_weights[next];
 }
 
+bool is_within_reach(const Scene& scene, const std::optional<RadialTarget>& wanted,
+                     const sim::FieldSample& sample) {
+  if (scene.target.picture) return scene.target.picture->covers(scene.near_field.to_plane(sample.point_mm));
+  return !wanted || radius_mm(sample) <= wanted->reach_mm;
+}
+
 /// Which samples lie in the target's parts, and what each counts.
 /// @in    the target without a kernel
 void mark(const Scene& scene, Target& target) {
   const auto wanted = radial_target(scene);
   for (std::size_t i = 0; i < target.samples.size(); ++i) {
-    target.within_reach.push_back(!wanted || radius_mm(target.samples[i]) <= wanted->reach_mm ? 1 : 0);
+    target.within_reach.push_back(is_within_reach(scene, wanted, target.samples[i]) ? 1 : 0);
     target.lit.push_back(!target.irradiance_w_per_mm2.empty() && target.irradiance_w_per_mm2[i] > 0 ? 1 : 0);
     if (!scene.target.zone_weights.empty() || !scene.target.table_weights.empty())
       target.weights.push_back(weight_at(scene.target, radius_mm(target.samples[i])));
@@ -110,9 +119,18 @@ void mark(const Scene& scene, Target& target) {
                                "all samples lie where zone_weights or the table's weights are 0", "");
 }
 
+/// As the picture has it, without the kernel.
+Target from_picture(const Scene& scene) {
+  Target target{field_samples(scene), {}};
+  for (const sim::FieldSample& sample : target.samples)
+    target.irradiance_w_per_mm2.push_back(
+        scene.target.picture->at(scene.near_field.to_plane(sample.point_mm)));
+  return target;
+}
+
 Target from_reference(const Scene& scene) {
   const Profile& reference = *scene.target.reference;
-  Target target{scene.near_field.samples(scene.samples), {}};
+  Target target{field_samples(scene), {}};
   const Evaluation first = evaluate_by_rung(scene, make_plan(scene, reference).rung, reference,
                                             target.samples, first_reference_stream);
   target.irradiance_w_per_mm2 = sum(first.direct, first.reflected);
@@ -128,7 +146,7 @@ Target from_reference(const Scene& scene) {
 Target sharp_from_reference(const Scene& scene) {
   constexpr double share = 0.25;  // of the error allowed, so that the reference's own hardly counts
   const Stage stage(scene, *scene.target.reference);
-  Target target{scene.near_field.samples(scene.samples), {}};
+  Target target{field_samples(scene), {}};
   sim::AccuracyRequest request;
   request.relative = share * *scene.accuracy_rel;
   request.model = model_request(scene);
@@ -201,10 +219,12 @@ Target unmarked_target(const Scene& scene) {
       return from_reference(scene);
     case TargetKind::csv:
       return from_table(scene);
+    case TargetKind::image:
+      return from_picture(scene);
     case TargetKind::none:
       break;
   }
-  return {scene.near_field.samples(scene.samples), {}};
+  return {field_samples(scene), {}};
 }
 
 }  // namespace
@@ -215,6 +235,7 @@ Target make_target(const Scene& scene) {
   const auto wanted = radial_target(scene);
   if (wanted && scene.target.kind != TargetKind::paraboloid && scene.model.estimate.kernel_radius_mm)
     smooth(scene, *wanted, target);
+  append_fields(scene, target);
   target.far = far_field(scene);
   return target;
 }

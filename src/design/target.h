@@ -16,6 +16,7 @@ struct Target {
   std::vector<sim::FieldSample> samples;
   std::vector<double> irradiance_w_per_mm2;  ///< empty when the scene wants nothing
   std::vector<double> weights = {};          ///< how much a sample counts; empty: all alike
+  std::vector<double> areas_mm2 = {};        ///< that each sample stands for; empty: all alike
   std::vector<char> within_reach = {};       ///< 1 at samples within the target's outer edge
   std::vector<char> lit = {};                ///< 1 where light is wanted, by the target without a kernel
   std::shared_ptr<const FarField> far = {};  ///< what is wanted from afar; null: nothing
@@ -38,7 +39,8 @@ double paraboloid_direct_w_per_mm2(double power_w, double height_mm, double dist
 /// in
 ///        the comparison: by tubes where the model takes them, else with 16 times the scene's photons, a
 ///        quarter of the noise of one evaluation; a target along the radius is smoothed by the kernel where
-///        it has a fixed radius. Paraboloids and tables of points are taken as they are
+///        it has a fixed radius. Paraboloids, tables of points
+///        and pictures are taken as they are
 Target make_target(const Scene& scene);
 
 /// The same with paraboloids too seen through the kernel, so that a wide kernel's blur is on both sides of

@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <span>
+#include <utility>
 
 #include "design/csv_table.h"
+#include "design/picture.h"
 #include "design/toml_values.h"
+#include "design/wanted_intensity.h"
 
 namespace catoptric::design {
 namespace {
@@ -27,13 +31,15 @@ const std::vector<Kind>& kinds() {
       {"gaussian", {"peak"}, {"sigma", "fwhm", "radius", "level"}},
       {"radial", {"file"}, {"column", "weight_column", "level"}},
       {"csv", {"file"}, {"column", "weight_column"}},
+      {"image", {"file"}, {"width", "height", "peak", "transfer", "gamma"}},
   };
   return table;
 }
 
-constexpr std::array<std::string_view, 14> own_keys{
-    "radius", "irradiance", "inner_radius", "outer_radius", "background",    "radii",        "irradiances",
-    "peak",   "sigma",      "fwhm",         "scale",        "weight_column", "zone_weights", "level"};
+constexpr std::array<std::string_view, 18> own_keys{
+    "radius",       "irradiance", "inner_radius", "outer_radius", "background", "radii",
+    "irradiances",  "peak",       "sigma",        "fwhm",         "scale",      "weight_column",
+    "zone_weights", "level",      "width",        "height",       "transfer",   "gamma"};
 
 bool holds(std::span<const std::string_view> list, std::string_view item) {
   return std::find(list.begin(), list.end(), item) != list.end();
@@ -130,38 +136,35 @@ void read_radial_table(const Settings& settings, double unit_mm, TargetSpec& spe
   check_range(table, spec.table_weights, 0, greatest_weight_of_a_place, "weight", file);
 }
 
-/// Plane angles beyond it lie too far out on the far plane.
-constexpr double greatest_angle_deg = 85;
+void complete_intensities(Settings& settings) {
+  if (settings.has("target.intensity_file")) {
+    settings.make_absolute("target.intensity_file");
+    settings.fill("target.intensity_resolution", "2.0");
+  }
+  for (const char* key : {"target.intensity_resolution", "target.intensity_scale", "target.intensity_level"})
+    if (settings.has(key) && !settings.has("target.intensity_file"))
+      throw settings.error(key, "stands alone", "no intensity is wanted", "target.intensity_file");
+  if (settings.has("target.intensity_level") && settings.text("target.intensity_scale") == "free")
+    throw settings.error("target.intensity_level", "has no effect", "the level is free", "remove it");
+}
 
 void read_intensities(const Settings& settings, TargetSpec& spec) {
-  const auto file = settings.text("target.intensity_file");
-  if (!file) return;
-  const CsvTable table = read_csv_table(*file);
-  const auto &angles = column(table, "angle", *file), &wanted = column(table, "intensity", *file);
-  if (angles.empty() || !(angles.back() > 0))
-    throw settings.error("target.intensity_file", "holds no angle above 0", "", "rows of angle, intensity");
-  check_range(table, wanted, 0, greatest_irradiance_w_per_m2, "intensity", *file);
-  for (std::size_t i = 0; i < angles.size(); ++i) {
-    const std::string where = fmt::format("{}:{}", *file, table.lines[i]);
-    if (angles[i] < 0 || angles[i] > greatest_angle_deg || (i > 0 && !(angles[i] > angles[i - 1])))
-      throw InputError({fmt::format("angle {} is out of order", angles[i]), where,
-                        fmt::format("angles rise from 0 to {} degrees at most", greatest_angle_deg), ""});
-    spec.angles_rad.push_back(angles[i] * pi / 180);
-    spec.intensities_w_per_sr.push_back(wanted[i]);
-  }
+  if (!settings.has("target.intensity_file")) return;
+  WantedIntensity wanted = read_wanted_intensity(settings, spec.notes);
+  spec.angles_rad = std::move(wanted.angles_rad);
+  spec.intensities_w_per_sr = std::move(wanted.w_per_sr);
+  spec.free_intensity = settings.text("target.intensity_scale") == "free";
   spec.resolution_rad = *settings.number("target.intensity_resolution") * pi / 180;
+}
+
+bool lies_across_axis(const sim::NearField& field) {
+  return std::abs(std::abs(field.normal().z()) - 1) < 1e-12;  // roundings of a unit vector
 }
 
 }  // namespace
 
 void complete_target(Settings& settings) {
-  if (settings.has("target.intensity_file")) {
-    settings.make_absolute("target.intensity_file");
-    settings.fill("target.intensity_resolution", "2.0");
-  } else if (settings.has("target.intensity_resolution")) {
-    throw settings.error("target.intensity_resolution", "stands alone", "no intensity is wanted",
-                         "target.intensity_file");
-  }
+  complete_intensities(settings);
   const std::string kind = *settings.text("target.kind");
   check_keys(settings, kind);
   if (kind == "ring") settings.fill("target.background", "0.0");
@@ -170,6 +173,7 @@ void complete_target(Settings& settings) {
     settings.fill("target.column", "\"irradiance\"");
     settings.make_absolute("target.file");
   }
+  if (kind == "image") complete_picture(settings);
 }
 
 TargetSpec target_spec(const Settings& settings, double unit_mm, std::optional<Profile> reference) {
@@ -188,6 +192,9 @@ TargetSpec target_spec(const Settings& settings, double unit_mm, std::optional<P
     spec.kind = TargetKind::reflector;
   } else if (kind == "csv") {
     spec.kind = TargetKind::csv;
+  } else if (kind == "image") {
+    spec.kind = TargetKind::image;
+    spec.picture = std::make_shared<const Picture>(read_picture(settings, unit_mm, spec.notes));
   } else if (kind == "gaussian") {
     spec.kind = TargetKind::gaussian;
     spec.peak_w_per_mm2 = from_w_per_m2(*settings.number("target.peak"));
@@ -211,10 +218,20 @@ TargetSpec target_spec(const Settings& settings, double unit_mm, std::optional<P
 void check_across_axis(const Settings& settings, const TargetSpec& spec, const sim::NearField& field) {
   const bool about_axis =
       spec.kind == TargetKind::zones || spec.kind == TargetKind::gaussian || spec.kind == TargetKind::radial;
-  const bool across = std::abs(std::abs(field.normal().z()) - 1) < 1e-12;  // roundings of a unit vector
-  if (about_axis && !across)
+  if (about_axis && !lies_across_axis(field))
     throw settings.error("target.kind", "this target does not fit a tilted near field",
                          "it is a function of the distance from the z axis", "near_field.normal = [0, 0, 1]");
+}
+
+void add_field_notes(TargetSpec& spec, const sim::NearField& field) {
+  if (!spec.picture || !lies_across_axis(field)) return;
+  const double off = asymmetry_rel(*spec.picture, field);
+  constexpr double least_worth_telling = 1e-6;
+  if (off < least_worth_telling) return;
+  spec.notes.push_back(fmt::format(
+      "the picture is not symmetric about the axis: {:.3g} % of its mean square is not, so that no "
+      "light that is symmetric comes nearer than a relative root mean square error of {:.3g}",
+      100 * off * off, off));
 }
 
 }  // namespace catoptric::design

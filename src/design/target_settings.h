@@ -18,4 +18,8 @@ TargetSpec target_spec(const Settings& settings, double unit_mm, std::optional<P
 /// @fails InputError when it is tilted
 void check_across_axis(const Settings& settings, const TargetSpec& spec, const sim::NearField& field);
 
+/// Adds what is worth telling of a target on its near field: how far a picture is from symmetric about the
+/// axis, where the near field lies across it.
+void add_field_notes(TargetSpec& spec, const sim::NearField& field);
+
 }  // namespace catoptric::design

@@ -12,6 +12,7 @@
 #include "design/evaluator.h"
 #include "design/judge.h"
 #include "design/memory_need.h"
+#include "design/sampling.h"
 #include "design/stage.h"
 #include "design/thread_limit.h"
 #include "sim/closed_forms.h"
@@ -25,7 +26,7 @@ constexpr std::uint64_t trade_stream = std::uint64_t{1} << 33;
 constexpr std::uint64_t truth_stream = std::uint64_t{1} << 34;
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point begin) {
+double elapsed_s(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
@@ -104,7 +105,7 @@ TradeRow measure(const Scene& scene, const TradeSetting& setting, const Profile&
     // Sets of photons of an accuracy take consecutive streams: seeds stand far apart.
     const Field field =
         compute(changed, setting, profile, samples, trade_stream + (static_cast<std::uint64_t>(run) << 20));
-    times.push_back(seconds_since(begin));
+    times.push_back(elapsed_s(begin));
     spent += times.back();
     row.photons = std::max(row.photons, field.photons);
     if (!judged) continue;
@@ -197,7 +198,7 @@ Tradeoff run_tradeoff(const Scene& written, const RunControl& control) {
   Scene scene = written;
   scene.source = start.source;
   scene.mirror = start.mirror;
-  const std::vector<sim::FieldSample> samples = scene.near_field.samples(scene.samples);
+  const std::vector<sim::FieldSample> samples = field_samples(scene);
   control.tell({"reference", 0.0, std::numeric_limits<double>::quiet_NaN(), 0});
   const Truth truth = find_truth(scene, profile, samples);
   Tradeoff trade;
@@ -227,7 +228,7 @@ Tradeoff run_tradeoff(const Scene& written, const RunControl& control) {
   trade.choices = choose(trade.rows, truth.error_rel, {0.1, 0.01, 0.001});
   trade.sentence = sentence_of(scene, trade);
   trade.machine = machine();
-  trade.seconds = seconds_since(begin);
+  trade.seconds = elapsed_s(begin);
   return trade;
 }
 

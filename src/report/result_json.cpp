@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "design/constraints.h"
 #include "design/metrics.h"
+#include "report/field_report.h"
 
 namespace catoptric::report {
 namespace {
@@ -35,13 +36,6 @@ Json stages_json(const std::vector<design::RefinementStage>& stages) {
                     {"evaluations", stage.evaluations},
                     {"search_value", search_value_json(stage.value)}});
   return json;
-}
-
-/// Where the truth lies with a probability of 95 %; null where that is not known.
-Json interval_json(const design::Figure& figure) {
-  if (!figure.half_interval) return nullptr;
-  const double middle = figure.value - figure.bias;
-  return {std::max(0.0, middle - *figure.half_interval), middle + *figure.half_interval};
 }
 
 std::string json_unit(design::Metric metric, LightQuantity quantity) {
@@ -101,14 +95,16 @@ Json judged_json(const design::Scene& scene, const design::Judged& judged) {
   return {{"variables", variables_json(judged)},
           {"objective", objective_json(scene, judged.judgement)},
           {"metrics", metrics_json(judged.judgement, scene.source.quantity)},
+          {"near_field", field_json(scene, judged.judgement)},
           {"constraints", constraints_json(scene, judged.constraints)}};
 }
 
 Json energy_json(const design::SourceSpec& source, const sim::EnergyLedger& energy) {
   return {{"unit", flux_unit(source.quantity)}, {"source", source.power_w},
           {"towards_mirror", energy.emitted_w}, {"missed_mirror", energy.missed_w},
-          {"absorbed", energy.absorbed_w},      {"received", energy.received_w},
-          {"escaped", energy.escaped_w},        {"cut_off", energy.cut_off_w}};
+          {"absorbed", energy.absorbed_w},      {"stopped_by_objects", energy.stopped_w},
+          {"received", energy.received_w},      {"escaped", energy.escaped_w},
+          {"cut_off", energy.cut_off_w}};
 }
 
 Json reflector_json(const design::Scene& scene, const Profile& profile) {
@@ -196,6 +192,7 @@ Json result_json(const design::Scene& scene, const design::DesignResult& result)
   json["energy"] = energy_json(result.best.source, judgement.energy);
   json["reflector"] = reflector_json(scene, result.best.profile);
   json["profile_notes"] = scene.profile_notes;
+  json["target_notes"] = scene.target.notes;
   return json;
 }
 
@@ -212,6 +209,7 @@ Json result_json(const design::Scene& scene, const design::SimulationResult& res
   json["energy"] = energy_json(result.mirror.source, result.mirror.judgement.energy);
   json["reflector"] = reflector_json(scene, result.mirror.profile);
   json["profile_notes"] = scene.profile_notes;
+  json["target_notes"] = scene.target.notes;
   return json;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "design/field_targets.h"
 #include "design/metrics.h"
 #include "report/figures.h"
 
@@ -93,7 +94,7 @@ GeneratrixFigure generatrix_figure(const design::Scene& scene, const design::Sou
 ScatteredField scattered(const design::Scene& scene, const design::Target& target,
                          const std::vector<double>& w_per_mm2) {
   ScatteredField field;
-  for (std::size_t i = 0; i < target.samples.size(); ++i) {
+  for (const std::size_t i : design::samples_of_field(target, 0)) {
     const Vector2 plane_mm = scene.near_field.to_plane(target.samples[i].point_mm);
     field.x.push_back(scene.to_scene_unit(plane_mm.x()));
     field.y.push_back(scene.to_scene_unit(plane_mm.y()));
@@ -123,7 +124,7 @@ double greatest_of(const FieldView& view) {
 
 std::vector<NamedFigure> irradiance_figures(const design::Scene& scene, const design::Target& target,
                                             const std::vector<FieldView>& views) {
-  if (target.samples.size() < 3) return {};
+  if (design::samples_of_field(target, 0).size() < 3) return {};
   double shared = 0;
   for (const FieldView& view : views)
     if (view.shares_scale) shared = std::max(shared, greatest_of(view));
@@ -154,8 +155,8 @@ RadialCurve ring_means(const design::Scene& scene, const design::Target& target,
                        const std::string& label, CurveRole role) {
   double reach_mm = 0;
   std::vector<double> distance_mm;
-  for (const auto& sample : target.samples) {
-    distance_mm.push_back(scene.near_field.to_plane(sample.point_mm).norm());
+  for (const std::size_t i : design::samples_of_field(target, 0)) {  // these come first
+    distance_mm.push_back(scene.near_field.to_plane(target.samples[i].point_mm).norm());
     reach_mm = std::max(reach_mm, distance_mm.back());
   }
   std::vector<double> sum(radial_bins), radius(radial_bins), variance(radial_bins);

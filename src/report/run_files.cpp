@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "design/designed_scene.h"
 #include "report/result_json.h"
 #include "report/run_figures.h"
 #include "report/run_folder.h"
@@ -23,6 +24,7 @@ WrittenFiles write_design(const design::Scene& scene, const design::DesignResult
   folder.table("generatrix.csv",
                generatrix_table(scene, {{"start", result.start.profile}, {"result", result.best.profile}}));
   folder.table("convergence.csv", convergence_table(scene, result));
+  folder.text("designed.toml", design::designed_text(scene, result.best));
   folder.exchange("reflector.step", result.best.profile, scene.export_options);
   folder.exchange("reflector.igs", result.best.profile, scene.export_options);
   const auto figures = folder.draw_all(design_figures(scene, result));

@@ -4,6 +4,7 @@
 
 #include "base/units.h"
 #include "design/metrics.h"
+#include "report/field_report.h"
 #include "report/html_report.h"
 #include "report/result_json.h"
 #include "report/run_tables.h"
@@ -46,7 +47,8 @@ std::vector<Fact> measure_facts(const design::Scene& scene, const design::Judgem
                     name(judgement.rung)));
   facts.emplace_back("Kernel", kernel_text(scene, judgement));
   facts.emplace_back(
-      "Samples", fmt::format("{} over {:.4g} mm²", judgement.reflected.size(), scene.near_field.area_mm2()));
+      "Samples", fmt::format("{}; near field of {:.4g} mm²", samples_text(scene, judgement.reflected.size()),
+                             scene.near_field.area_mm2()));
   const std::string irradiance = printed(irradiance_unit(scene.source.quantity));
   facts.emplace_back("Noise of one evaluation, rms",
                      fmt::format("{:.3g} {}", to_w_per_m2(judgement.field_noise_w_per_mm2), irradiance));
@@ -96,6 +98,18 @@ PageSection mirror_section(const design::Scene& scene, const Profile& profile) {
       {}};
 }
 
+/// What becomes of the light that meets the mirror.
+std::string mirror_words(const sim::Material& mirror) {
+  std::string words = mirror.by_angle ? fmt::format("{:.4g} to {:.4g} (head-on, at 60 degrees of incidence)",
+                                                    mirror.reflectance_at(1), mirror.reflectance_at(0.5))
+                                      : fmt::format("{:.4g}", mirror.reflectance);
+  words += mirror.roughness > 0 && mirror.reflectance > 0
+               ? fmt::format(" is reflected by microfacets of roughness {:.4g}", mirror.roughness)
+               : " is reflected specularly";
+  if (mirror.diffuse > 0) words += fmt::format(", {:.4g} diffusely", mirror.diffuse);
+  return words + fmt::format(", {:.4g} passes", mirror.transmittance);
+}
+
 /// What the model holds and what it does not, so that nobody reads more into the figures.
 PageSection model_section(const design::Scene& scene, const sim::Plan& plan) {
   PageSection section{"What was modelled", {}, {}, {}, {}};
@@ -103,14 +117,15 @@ PageSection model_section(const design::Scene& scene, const sim::Plan& plan) {
     section.facts.emplace_back(finding.feature, finding.found + ": " + finding.consequence);
   section.paragraphs = {
       fmt::format(
-          "Light from the source meets the true surface of revolution (engine {}); of it {:.4g} is "
-          "reflected specularly, {:.4g} passes and the rest is absorbed, as often as it meets it. Direct "
-          "light is computed, with the mirror's shadow.",
-          name(scene.model.engine), scene.mirror.reflectance, scene.mirror.transmittance),
-      "Left out: scattering and the mirror's figure error, colour, polarisation, and all surroundings but "
-      "the near field. The kernel's bias is extrapolated from two bandwidths; at jumps of "
-      "the "
-      "field (the rim of a beam, a fold) it is underestimated."};
+          "Light from the source meets the true surface of revolution (engine {}); of it {} and the rest is "
+          "absorbed, as often as it meets it. Direct light is computed, with the mirror's shadow.",
+          name(scene.model.engine), mirror_words(scene.mirror)),
+      std::string("Left out: ") +
+          (sim::is_specular(scene.mirror) ? "scattering" : "light between two microfacets") +
+          " and the mirror's figure error, colour, polarisation, and all surroundings but "
+          "the near field. The kernel's bias is extrapolated from two bandwidths; at jumps of "
+          "the "
+          "field (the rim of a beam, a fold) it is underestimated."};
   return section;
 }
 
@@ -137,10 +152,15 @@ std::string design_page(const design::Scene& scene, const design::DesignResult& 
                                        result.seconds)}};
   if (!result.best.constraints.empty())
     page.facts.emplace_back("Constraints", design::sentence(result.best.constraints, scene.unit));
-  std::vector<PageTable> tables{{"", summary_table(scene, result)}};
+  std::vector<PageTable> tables{{"", summary_table(scene, result)},
+                                {"The result's light", field_table(scene, result.best.judgement)}};
   for (PageTable& table : constraint_tables(scene, result.best)) tables.push_back(std::move(table));
   page.sections = {
-      {"Start and result", {}, measure_facts(scene, result.best.judgement), std::move(tables), {}},
+      {"Start and result",
+       scene.target.notes,
+       measure_facts(scene, result.best.judgement),
+       std::move(tables),
+       {}},
       figure_section("Pictures", figures),
       mirror_section(scene, result.best.profile),
       model_section(scene, result.plan),
@@ -156,13 +176,17 @@ std::string simulation_page(const design::Scene& scene, const design::Simulation
     page.facts.push_back(
         {design::objective_name(scene.search.metric), objective_text(scene, result.mirror.judgement)});
   page.facts.push_back({"Effort", fmt::format("{} photons, {:.1f} s", result.photons, result.seconds)});
-  std::vector<PageTable> tables{{"", simulation_table(scene, result)}};
+  std::vector<PageTable> tables{{"", simulation_table(scene, result)},
+                                {"Its light", field_table(scene, result.mirror.judgement)}};
   for (PageTable& table : constraint_tables(scene, result.mirror)) tables.push_back(std::move(table));
-  page.sections = {
-      {"Figures of the scene", {}, measure_facts(scene, result.mirror.judgement), std::move(tables), {}},
-      figure_section("Pictures", figures),
-      mirror_section(scene, result.mirror.profile),
-      model_section(scene, result.plan)};
+  page.sections = {{"Figures of the scene",
+                    scene.target.notes,
+                    measure_facts(scene, result.mirror.judgement),
+                    std::move(tables),
+                    {}},
+                   figure_section("Pictures", figures),
+                   mirror_section(scene, result.mirror.profile),
+                   model_section(scene, result.plan)};
   return html_page(page);
 }
 

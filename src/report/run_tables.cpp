@@ -73,6 +73,7 @@ Table irradiance_table(const design::Scene& scene, const design::Target& target,
                {"total", irradiance},
                {"noise", irradiance}},
               {}};
+  if (!scene.fields.empty()) table.columns.push_back({"surface", ""});
   for (std::size_t i = 0; i < target.samples.size(); ++i) {
     const Vector3& point_mm = target.samples[i].point_mm;
     table.rows.push_back(
@@ -81,6 +82,9 @@ Table irradiance_table(const design::Scene& scene, const design::Target& target,
          judgement.has_objective ? Cell{to_w_per_m2(target.irradiance_w_per_mm2[i])} : Cell{},
          to_w_per_m2(judgement.direct[i]), to_w_per_m2(judgement.reflected[i]),
          to_w_per_m2(judgement.direct[i] + judgement.reflected[i]), to_w_per_m2(judgement.noise[i])});
+    const std::size_t field = target.samples[i].field;
+    if (!scene.fields.empty())
+      table.rows.back().push_back(field == 0 ? std::string("near_field") : scene.fields[field - 1].name);
   }
   return table;
 }
@@ -219,6 +223,8 @@ Table simulation_table(const design::Scene& scene, const design::SimulationResul
   table.rows.push_back({"emitted towards the mirror", flux, judgement.energy.emitted_w});
   table.rows.push_back({"  missed it", flux, judgement.energy.missed_w});
   table.rows.push_back({"  absorbed by it", flux, judgement.energy.absorbed_w});
+  if (scene.surroundings)
+    table.rows.push_back({"  stopped by objects about it", flux, judgement.energy.stopped_w});
   table.rows.push_back({"  received by the near field", flux, judgement.energy.received_w});
   table.rows.push_back({"  escaped past the near field", flux, judgement.energy.escaped_w});
   return table;

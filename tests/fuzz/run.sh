@@ -10,7 +10,7 @@ cd "$(dirname "$0")/../.."
 runs=${1:-1000000}
 shift || true
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(scene override study csv conic layout packet rayfile lm63 eulumdat iges step)
+[ ${#targets[@]} -gt 0 ] || targets=(scene override study csv conic layout packet rayfile lm63 eulumdat netpbm png iges step)
 build=${BUILD:-build-fuzz}
 most_seconds=${SECONDS_EACH:-0}
 
@@ -77,6 +77,21 @@ seeds() {
           printf '5\n2,5\n1\n%.0s' $(seq $((symmetry == 0 ? 4 : symmetry == 1 ? 1 : symmetry == 4 ? 2 : 3)))
         } >"$folder/isym_$symmetry"
       done
+      ;;
+    netpbm)
+      printf 'P2\n# c\n3 2\n9\n0 1 2\n3 4 9\n' >"$folder/p2"
+      printf 'P5\n2 2\n255\nabcd' >"$folder/p5"
+      printf 'P5 2 1 1000\n\1\2\3\4' >"$folder/p5_two_bytes"
+      printf 'Pf\n2 1\n-1.0\n\0\0\200\77\0\0\0\100' >"$folder/pfm_little"
+      printf 'Pf\n1 2\n1.0\n\77\200\0\0\100\0\0\0' >"$folder/pfm_big"
+      ;;
+    png) # as targets/png.h takes them: chunks, and pixels of several depths, interlaced or not
+      local name=0 head
+      for head in '\2\2\10\0\0' '\2\2\20\0\0' '\3\1\4\0\0' '\11\1\1\0\1' '\1\1\10\4\0' '\1\1\10\2\0'; do
+        printf "\2$head"'\0abcdefghijkl' >"$folder/pixels_$((name += 1))"
+        printf "\1${head}gAMA\4\0\0\261\217sRGB\1\0tRNS\2\0\1" >"$folder/chunks_$name"
+      done
+      printf '\1\1\1\10\0\0IDAT\15\170\1\1\2\0\375\377\0a\0c\0b' >"$folder/whole"
       ;;
     layout) cp data/profiles/*.igs "$folder" ;;
     rayfile) ray_files "$folder" ;;

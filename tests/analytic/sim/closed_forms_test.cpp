@@ -220,7 +220,7 @@ TEST_CASE("sphere with a leak: the light that passes it is a geometric series to
 TEST_CASE("a diffuse floor under a black dome: each photon that falls goes on to the dome") {
   const auto dome = test::half_ellipsoid(0, 50, 50);
   const PointSource source({0, 0, 20}, power);
-  const auto floor = NearField::disc({0, 0, 0}, {0, 0, 1}, 50, Material{1, 0});
+  const auto floor = NearField::disc({0, 0, 0}, {0, 0, 1}, 50, Material::matt(1));
   constexpr double count = 100'000;
   const auto traced = test::fly({source, dome, {0, 0}, floor}, photons(static_cast<std::uint64_t>(count)), 0);
   CHECK(traced.energy.absorbed_w == Approx(power).epsilon(1e-12));

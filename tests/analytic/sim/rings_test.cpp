@@ -165,7 +165,8 @@ TEST_CASE("rings: a conical band lights a ring with two sharp edges") {
 TEST_CASE("rings and photons agree, several bounces, absorption and a real field included", "[long]") {
   const auto mirror = cad::make_meridian_reflector(Profile::bezier({{0, 100, 1}, {70, 100, 1}, {60, 20, 1}}));
   const PointSource low({0, 0, 35}, power);
-  for (const auto& material : {std::optional<Material>{}, std::optional<Material>{Material{0.4, 0.2}}}) {
+  for (const auto& material :
+       {std::optional<Material>{}, std::optional<Material>{Material::matt(0.4, 0.2)}}) {
     const auto patch = NearField::disc({0, 0, 0}, {0, 0, 1}, 80, material);
     const Scene scene{low, *mirror, {0.8, 0.05}, patch};
     std::vector<FieldSample> samples;
@@ -191,7 +192,7 @@ TEST_CASE("rings and photons agree, several bounces, absorption and a real field
 TEST_CASE("rings: in the plane and in space the same photons have the same fates") {
   const auto mirror = cad::make_meridian_reflector(Profile::bezier({{0, 100, 1}, {70, 100, 1}, {60, 20, 1}}));
   const PointSource low({0, 0, 35}, power);
-  for (const auto& material : {std::optional<Material>{}, std::optional<Material>{Material{0, 0.3}}}) {
+  for (const auto& material : {std::optional<Material>{}, std::optional<Material>{Material::matt(0, 0.3)}}) {
     const auto patch = NearField::disc({0, 0, 0}, {0, 0, -1}, 80, material);
     const auto radii = radii_of(patch, 50);
     auto given = options(20'000, Sampler::random);

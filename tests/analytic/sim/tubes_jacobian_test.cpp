@@ -90,5 +90,7 @@ TEST_CASE("derivatives are refused where they are not given", "[tubes][jacobian]
   const Profile profile = Profile::bezier({{0, 100, 1}, {50, 100, 1}, {100, 50, 1}});
   CHECK_THROWS_AS(tubes_jacobian(source, profile, {}, ground, radii(), {}), InputError);
   CHECK_THROWS_AS(tubes_jacobian(source, profile, {0.5, 0.4}, ground, radii(), fine()), InputError);
+  CHECK_THROWS_AS(tubes_jacobian(source, profile, Material::metal(1.1, 6.6), ground, radii(), fine()),
+                  InputError);
   CHECK(tubes_jacobian(source, profile, {}, ground, {}, fine()).by_variable.rows() == 0);
 }

@@ -180,6 +180,47 @@ TEST_CASE("a sphere about the source sends each ray back: reflected is direct", 
   CHECK(field.landed_w == Approx(0.8 * focus.power_w() / 2).epsilon(1e-12));
 }
 
+TEST_CASE("tubes carry the reflectance at each ray's incidence", "[tubes]") {
+  const auto mirror = test::paraboloid(a_mm);
+  const std::vector<double> radii = steps(0, 110, 151);
+  // The table bends where rays land at r = 2 a tan of its angles, and reaches 0.
+  for (const Material& material : {Material::metal(1.1, 6.6), Material::metal(0.3, 1.2),
+                                   Material::with_table({0, 0.3, 0.5, 0.7}, {0.9, 0.5, 0.7, 0.1}),
+                                   Material::with_table({0.2, 0.6}, {1, 0})}) {
+    const auto truth = [&](double r) {
+      return material.reflectance_at(1 / std::hypot(1.0, r / (2 * a_mm))) * paraboloid_irradiance(r);
+    };
+    const TubesField exact = tubes_field(focus, mirror.profile(), material, ground, radii, {});
+    TubesOptions rough;
+    rough.pointwise_tolerance_w_per_mm2 = from_w_per_m2(1e-5);
+    const TubesField near = tubes_field(focus, mirror.profile(), material, ground, radii, rough);
+    const TubesField blurred = tubes_field(focus, mirror.profile(), material, ground, radii, smooth(5));
+    CAPTURE(exact.rays, near.rays, blurred.rays, near.error_w_per_mm2, blurred.error_w_per_mm2);
+    CHECK(near.rays < exact.rays);
+    CHECK(blurred.error_w_per_mm2 < from_w_per_m2(2e-6));
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+      INFO("r " << radii[i]);
+      CHECK(exact.irradiance[i] == Approx(truth(radii[i])).epsilon(1e-11).margin(1e-20));
+      CHECK(std::abs(near.irradiance[i] - truth(radii[i])) <= near.error_w_per_mm2);
+      if (i % 50 == 0)
+        CHECK(std::abs(blurred.irradiance[i] - smoothed_truth(truth, 5, radii[i], 2 * a_mm)) <=
+              blurred.error_w_per_mm2 + from_w_per_m2(1e-8));
+    }
+  }
+}
+
+TEST_CASE("tubes refuse mirrors that scatter", "[tubes]") {
+  const auto mirror = test::paraboloid(a_mm);
+  const auto flat = NearField::disc({0, 0, 0}, {0, 0, 1}, 50);
+  for (const Material& material : {Material{0.8, 0, 0.1}, Material{1, 0, 0, 0.1}}) {
+    CHECK(tubes_objection(focus, mirror.profile(), material, flat)->find("scatters") != std::string::npos);
+    CHECK_THROWS_AS(tubes_field(focus, mirror.profile(), material, ground, std::vector<double>{1.0}, {}),
+                    InputError);
+  }
+  CHECK_FALSE(tubes_objection(focus, mirror.profile(), Material::metal(1.1, 6.6), flat));
+  CHECK_FALSE(tubes_objection(focus, mirror.profile(), Material{0, 0.5, 0, 0.1}, flat));  // nothing is rough
+}
+
 TEST_CASE("a cone's light comes from the mirrored source, a cylinder's too", "[tubes]") {
   // In its meridian a straight mirror makes an image point: rho = image_r + (distance) tan, a flux of rings.
   struct Case {
@@ -326,13 +367,13 @@ TEST_CASE("light through the mirror counts, and light that comes from below does
 TEST_CASE("the rung says in words what it cannot light", "[tubes]") {
   const auto mirror = test::paraboloid(a_mm);
   const NearField flat = NearField::disc({3, 4, 0}, {0, 0, 1}, 50);
-  CHECK_FALSE(tubes_objection(focus, mirror.profile(), flat));
-  CHECK(tubes_objection(PointSource({1, 0, 50}, 1), mirror.profile(), flat)->find("off the axis") !=
+  CHECK_FALSE(tubes_objection(focus, mirror.profile(), {}, flat));
+  CHECK(tubes_objection(PointSource({1, 0, 50}, 1), mirror.profile(), {}, flat)->find("off the axis") !=
         std::string::npos);
-  CHECK(
-      tubes_objection(focus, mirror.profile(), NearField::disc({0, 0, 0}, {0.1, 0, 1}, 50))->find("tilted") !=
-      std::string::npos);
-  CHECK(tubes_objection(focus, mirror.profile(), NearField::disc({0, 0, 0}, {0, 0, 1}, 50, Material{0.5, 0}))
+  CHECK(tubes_objection(focus, mirror.profile(), {}, NearField::disc({0, 0, 0}, {0.1, 0, 1}, 50))
+            ->find("tilted") != std::string::npos);
+  CHECK(tubes_objection(focus, mirror.profile(), {},
+                        NearField::disc({0, 0, 0}, {0, 0, 1}, 50, Material::matt(0.5)))
             ->find("real object") != std::string::npos);
   CHECK_THROWS_AS(tubes_field(PointSource({1, 0, 50}, 1), mirror.profile(), {}, ground, steps(0, 9, 2), {}),
                   InputError);

@@ -50,6 +50,9 @@ TEST_CASE("every command writes the same bytes by 1, 2 and 7 threads, but for it
       {"landscape", "landscape '" + paper +
                         "start_a.toml' --set landscape.steps=[3,4] --set landscape.paths=true" + small},
       {"sensitivity", "sensitivity '" + paper + "paraboloid.toml'" + small},
+      {"rays", "rays '" + examples + "source_aside.toml' --set rays.count=20001"},
+      {"luminaire", "rays '" + examples + "disc_lamp.toml' --set rays.count=20001 --set rays.of=luminaire" +
+                        " --set rays.format=zemax"},
       {"study", "study '" + (folder / "study.toml").string() + "'" + small}};
   for (const std::string threads : {"1", "2", "7"})
     for (const auto& [name, command] : commands) {

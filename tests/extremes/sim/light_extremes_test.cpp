@@ -51,7 +51,7 @@ TEST_CASE("a source anywhere, even on the mirror, gives a sound field") {
 TEST_CASE("a near field anywhere: through the mirror, along the axis, far away, tiny") {
   const auto mirror = test::half_ellipsoid(50, 50, 80);
   const PointSource source({0, 0, 70}, power);
-  for (const auto& material : {std::optional<Material>{}, std::optional<Material>{Material{0.5, 0.3}}})
+  for (const auto& material : {std::optional<Material>{}, std::optional<Material>{Material::matt(0.5, 0.3)}})
     for (const NearField& field :
          {NearField::disc({0, 0, 90}, {0, 0, 1}, 30, material),
           NearField::disc({0, 0, 70}, {0, 0, 1}, 30, material),

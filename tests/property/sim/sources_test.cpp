@@ -105,7 +105,8 @@ TEST_CASE("no lit way from any point of a sphere, cylinder or rectangle to the m
 TEST_CASE("the ledger adds up for sources with an axis, and no more is emitted than there is") {
   const auto mirror = test::half_ellipsoid(50, 50, 80);
   for (const Place& place : all_places)
-    for (const auto& surface : {std::optional<Material>{}, std::optional<Material>{Material{0.5, 0.2}}}) {
+    for (const auto& surface :
+         {std::optional<Material>{}, std::optional<Material>{Material::matt(0.5, 0.2)}}) {
       const auto field = NearField::disc({0, 0, 20}, {0, 0, 1}, 40, surface);
       const LambertianDisc disc(place.at, 3, place.axis, 3.7);
       const PointSource point(place.at, 3.7, 2.5, place.axis);

@@ -128,8 +128,9 @@ TEST_CASE("photons are recorded as far out as the estimates at the edge reach") 
 }
 
 TEST_CASE("an even field on a real patch reads even up to its edge", "[long]") {
-  for (const auto& patch : {NearField::disc({0, 0, 0}, {0, 0, 1}, 50, Material{0, 0}),
-                            NearField::rectangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 80, 50, Material{0, 0})}) {
+  for (const auto& patch :
+       {NearField::disc({0, 0, 0}, {0, 0, 1}, 50, Material::matt(0)),
+        NearField::rectangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 80, 50, Material::matt(0))}) {
     TracedPhotons traced;
     std::vector<Crossing> crossings;
     traced.area = RecordedArea::about(patch, 0);
@@ -167,7 +168,7 @@ TEST_CASE("an even field on a real patch reads even up to its edge", "[long]") {
 TEST_CASE("a real patch reads what the invisible register reads, edge included") {
   // The end of the field at r = 50 has a slope; the corrected estimate there is wrong by slope times the
   // kernel's centre of mass, some 0.3 r: E'/E = 4 r / (4 a^2 + r^2) = 1.6 % a mm.
-  const auto real = NearField::disc({0, 0, 0}, {0, 0, 1}, 50, Material{0, 0});
+  const auto real = NearField::disc({0, 0, 0}, {0, 0, 1}, 50, Material::matt(0));
   const auto samples = field.samples(100);
   const EstimateOptions options{Kernel::silverman, {}, 4.0};
   const auto a = simulate({source, mirror, {}, field}, samples, photons(500'000), options);

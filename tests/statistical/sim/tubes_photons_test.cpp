@@ -102,10 +102,17 @@ TEST_CASE("tubes agree with photons on folds, cavities and half-silvered mirrors
   const Profile pot = Profile::bezier({{0, 110, 1}, {70, 110, 1}, {70, 60, 3}, {25, 20, 1}});
   const Profile ring = Profile::bezier({{30, 90, 1}, {70, 80, 1}, {60, 10, 1}});
   for (const Profile& profile : {ripple, pot, ring})
-    for (const Material& material : {Material{0.9, 0}, Material{0.5, 0.4}}) {
+    for (const Material& material :
+         {Material{0.9, 0}, Material{0.5, 0.4}, Material::with_table({0, 0.5, 1.2}, {0.9, 0.4, 0.8})}) {
       const Comparison got = compare(profile, profile, material);
       CHECK(got.worst_z < most_z);
     }
+}
+
+TEST_CASE("tubes agree with photons where the reflectance goes with the angle", "[tubes]") {
+  for (const Profile& profile : {start(1.6, 90), start(0.3, 30)})
+    for (const Material& material : {Material::metal(1.5, 0.5), Material::with_table({0, 0.7}, {0.2, 1})})
+      CHECK(compare(profile, profile, material).worst_z < most_z);
 }
 
 TEST_CASE("the comparison sees a mirror that is not the same", "[tubes]") {

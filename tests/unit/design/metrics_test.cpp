@@ -39,6 +39,7 @@ TEST_CASE("metrics of four samples, by hand") {
   CHECK(value(Metric::rmse) == Approx(std::sqrt((1 + 1 + 0 + 4) / 4.0)));  // W/m^2
   CHECK(value(Metric::relative_rmse) == Approx(std::sqrt(6.0 / 9)));
   CHECK(value(Metric::uniformity) == Approx(1 / 2.0));
+  CHECK(value(Metric::diversity) == Approx(1 / 3.0));
   CHECK(value(Metric::enclosed_flux) == Approx((3 + 1 + 1) * 1e-6 * 25 / 1e-3));
   CHECK(value(Metric::efficiency) == Approx((3 + 1) * 1e-6 * 25 / 1e-3));
 }
@@ -52,6 +53,8 @@ TEST_CASE("weights count in errors and means, and a sample of weight 0 is not th
   CHECK(value(Metric::relative_rmse, {3, 0, 5, 0}) == Approx(std::sqrt(3.0 / (3 * 4 + 5 * 1))));
   CHECK(value(Metric::uniformity, {1, 3, 1, 1}) == Approx(1 / 1.5));
   CHECK(value(Metric::uniformity, {1, 0, 1, 1}) == Approx(1));
+  CHECK(value(Metric::diversity, {1, 3, 1, 1}) == Approx(1 / 3.0));
+  CHECK(value(Metric::diversity, {1, 0, 1, 1}) == Approx(1));
   CHECK(value(Metric::rmse, {2, 2, 2, 2}) == Approx(value(Metric::rmse, {})));
   CHECK(value(Metric::efficiency, {0, 1, 1, 1}) == Approx(value(Metric::efficiency, {})));  // flux is flux
 }
@@ -70,6 +73,7 @@ TEST_CASE("with a free scale the level that fits best is compared") {
 
 TEST_CASE("where more is better a search makes 1 less it small") {
   CHECK(objective(scene("uniformity"), field, target()) == Approx(0.5));
+  CHECK(objective(scene("diversity"), field, target()) == Approx(2 / 3.0));
   CHECK(objective(scene("efficiency"), field, target()) == Approx(0.9));
   CHECK(objective(scene("enclosed-flux"), field, target()) == Approx(0.875));
   CHECK(objective(scene("rmse"), field, target()) == Approx(std::sqrt(1.5)));
@@ -82,6 +86,7 @@ TEST_CASE("a metric that says nothing about the target is refused before the sea
   dark.lit.assign(4, 0);
   CHECK_THROWS_WITH(require_metric(scene("relative-rmse"), dark), Catch::Contains("dark"));
   CHECK_THROWS_WITH(require_metric(scene("uniformity"), dark), Catch::Contains("dark"));
+  CHECK_THROWS_WITH(require_metric(scene("diversity"), dark), Catch::Contains("dark"));
   CHECK_NOTHROW(require_metric(scene("rmse"), dark));
   CHECK_FALSE(metric_value(Metric::efficiency, scene(), field, dark).has_value());
 }

@@ -88,11 +88,11 @@ TEST_CASE("folds and foci are found") {
 
 TEST_CASE("what a grid of rays cannot tell counts as a break") {
   CHECK(on_patch(reach_of({.mirror = {0.5, 0.3}}), "through the mirror"));
-  CHECK(on_patch(reach_of({.field = disc(0, 0, 60, Material{0.5, 0})}), "real"));
+  CHECK(on_patch(reach_of({.field = disc(0, 0, 60, Material::matt(0.5))}), "real"));
   // To rings a real floor is no riddle, unless it stands before the source.
   const auto rings = UnknownBreaks::folds;
-  CHECK(reach_of({.field = disc(0, 0, 60, Material{0.5, 0}), .unknown = rings}).clear_mm == HUGE_VAL);
-  CHECK(on_patch(reach_of({.field = disc(0, 60, 10, Material{0.5, 0}), .unknown = rings}), "shadow"));
+  CHECK(reach_of({.field = disc(0, 0, 60, Material::matt(0.5)), .unknown = rings}).clear_mm == HUGE_VAL);
+  CHECK(on_patch(reach_of({.field = disc(0, 60, 10, Material::matt(0.5)), .unknown = rings}), "shadow"));
   // A deep mirror lights itself.
   const Profile deep = Profile::bezier({{0, 100, 1}, {60, 100, 1}, {60, -100, 1}});
   CHECK(on_patch(reach_of({.profile = deep, .field = disc(0, -150, 30)}), "more than once"));

@@ -80,8 +80,8 @@ TEST_CASE("a near field that cannot be is refused") {
   }
   CHECK_THROWS_AS(NearField::rectangle({0, 0, 0}, {0, 0, 1}, {0, 0, -3}, 1, 1), InputError);
   CHECK_THROWS_AS(NearField::rectangle({0, 0, 0}, {0, 0, 1}, {nan, 0, 0}, 1, 1), InputError);
-  CHECK_THROWS_AS(NearField::disc({0, 0, 0}, {0, 0, 1}, 1, Material{0.7, 0.4}), InputError);
-  CHECK_THROWS_AS(NearField::disc({0, 0, 0}, {0, 0, 1}, 1, Material{nan, 0}), InputError);
-  CHECK_THROWS_AS(NearField::disc({0, 0, 0}, {0, 0, 1}, 1, Material{0, -0.1}), InputError);
-  CHECK_NOTHROW(NearField::disc({0, 0, 0}, {0, 0, 1}, 1, Material{0.7, 0.3}));
+  CHECK_THROWS_AS(NearField::disc({0, 0, 0}, {0, 0, 1}, 1, Material::matt(0.7, 0.4)), InputError);
+  CHECK_THROWS_AS(NearField::disc({0, 0, 0}, {0, 0, 1}, 1, Material::matt(nan)), InputError);
+  CHECK_THROWS_AS(NearField::disc({0, 0, 0}, {0, 0, 1}, 1, Material::matt(0, -0.1)), InputError);
+  CHECK_NOTHROW(NearField::disc({0, 0, 0}, {0, 0, 1}, 1, Material::matt(0.7, 0.3)));
 }

@@ -46,7 +46,7 @@ TEST_CASE("what tubes cannot do goes to the next rung, and forcing tubes there i
   refused({0, 0, 50}, {0, 1, 1}, fixed, {}, Rung::photons, "tilted");
   refused({0, 0, 50}, {0, 0, 1}, {Kernel::silverman, 100, {}}, {}, Rung::photons, "number of photons");
   refused({0, 0, 50}, {0, 0, 1}, {Kernel::cone, {}, 5.0}, {}, Rung::photons, "cone");
-  refused({0, 0, 50}, {0, 0, 1}, fixed, Material{0.5, 0}, Rung::rings, "near field");
+  refused({0, 0, 50}, {0, 0, 1}, fixed, Material::matt(0.5), Rung::rings, "near field");
 }
 
 TEST_CASE("an engine that was asked for is used: tubes, which have their own, are not") {
@@ -67,6 +67,28 @@ TEST_CASE("the planner says whether the field may jump, where photons would blur
   CHECK_THAT(found(150, Rung::photons), Catch::Contains("edge of the beam"));
   CHECK_THAT(found(150, Rung::rings), Catch::StartsWith("none"));  // they know the edge
   CHECK(found(150, Rung::tubes).empty());                          // these have nothing to blur
+}
+
+TEST_CASE("the plan says what is modelled of the mirror's surface") {
+  const auto said = [](const Material& surface, const char* feature) {
+    const PointSource source({0, 0, 50}, 1);
+    const NearField field = NearField::disc({0, 0, 0}, {0, 0, 1}, 50);
+    const Plan plan = make_plan({source, mirror, surface, field}, {fixed, {}, {}});
+    CHECK(plan.rung == (is_specular(surface) ? Rung::tubes : Rung::rings));
+    for (const Finding& finding : plan.findings)
+      if (finding.feature == feature) return finding.found + "; " + finding.consequence;
+    return std::string();
+  };
+  CHECK_THAT(said({0.9, 0}, "mirror"), Catch::Contains("roughness is left out"));
+  CHECK_THAT(said({0.9, 0, 0, 0.2}, "mirror"), Catch::Contains("alpha 0.2") && Catch::Contains("is lost"));
+  CHECK_THAT(said(Material::matt(0.9), "mirror"), Catch::StartsWith("matt"));
+  CHECK_THAT(said({0.6, 0, 0.3}, "mirror"), Catch::StartsWith("partly matt"));
+  CHECK_THAT(said({0.6, 0, 0.3}, "losses"), Catch::Contains("diffuse 0.3"));
+  CHECK_THAT(said(Material::matt(0.9), "source"), Catch::Contains("three dimensions"));
+  CHECK_THAT(said({0.6, 0}, "source"), Catch::Contains("two dimensions"));
+  CHECK_THAT(said(Material::with_table({0, 1}, {0.5, 0.9}), "reflectance by angle"),
+             Catch::Contains("0.5 head-on"));
+  CHECK(said({0.6, 0}, "reflectance by angle").empty());
 }
 
 TEST_CASE("every rung has a name that reads back") {

@@ -39,13 +39,13 @@ TEST_CASE("rings object in words to what is not the same in all azimuths") {
   const Vector3 up(0, 0, 1), axis(0, 0, 50);
   CHECK(objection(axis, field).empty());
   CHECK(objection(axis, NearField::rectangle({30, 0, 0}, up, {1, 0, 0}, 10, 20)).empty());
-  CHECK(objection(axis, NearField::disc({0, 0, 0}, -up, 10, Material{0.5, 0})).empty());
+  CHECK(objection(axis, NearField::disc({0, 0, 0}, -up, 10, Material::matt(0.5))).empty());
   CHECK_THAT(objection({1, 0, 50}, field), Catch::Contains("source is 1 mm off the axis"));
   CHECK_THAT(objection(axis, NearField::disc({0, 0, 0}, {0, 1, 1}, 10)),
              Catch::Contains("tilted by 45 degrees"));
-  CHECK_THAT(objection(axis, NearField::disc({3, 4, 0}, up, 10, Material{0, 0})),
+  CHECK_THAT(objection(axis, NearField::disc({3, 4, 0}, up, 10, Material::matt(0))),
              Catch::Contains("5 mm off"));
-  CHECK_THAT(objection(axis, NearField::rectangle({0, 0, 0}, up, {1, 0, 0}, 10, 20, Material{0, 0})),
+  CHECK_THAT(objection(axis, NearField::rectangle({0, 0, 0}, up, {1, 0, 0}, 10, 20, Material::matt(0))),
              Catch::Contains("real rectangle"));
   const PointSource aside({1, 0, 50}, 1);
   CHECK_THROWS_AS(rings_field({aside, mirror, {}, field}, radii, {}), InputError);

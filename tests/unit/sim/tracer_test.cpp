@@ -110,7 +110,7 @@ TEST_CASE("a real near field that only transmits registers what an invisible one
   const auto mirror = test::paraboloid();
   const PointSource source({0, 0, 50}, 1);
   const auto invisible = NearField::disc({0, 0, 0}, {0, 0, 1}, 70);
-  const auto clear = NearField::disc({0, 0, 0}, {0, 0, 1}, 70, Material{0, 1});
+  const auto clear = NearField::disc({0, 0, 0}, {0, 0, 1}, 70, Material::matt(0, 1));
   const auto a = test::fly({source, mirror, {}, invisible}, photons(5000), 0);
   const auto b = test::fly({source, mirror, {}, clear}, photons(5000), 0);
   CHECK(a.crossings == b.crossings);
@@ -120,12 +120,12 @@ TEST_CASE("a real near field that only transmits registers what an invisible one
 TEST_CASE("a real near field stops what it absorbs and shades the mirror from behind") {
   const test::FlatMirror mirror(100, 50);
   const PointSource source({0, 0, 0}, 1);
-  const auto screen = NearField::disc({0, 0, 60}, {0, 0, 1}, 1000, Material{0, 0});
+  const auto screen = NearField::disc({0, 0, 60}, {0, 0, 1}, 1000, Material::matt(0));
   const auto dark = test::fly({source, mirror, {}, screen}, photons(1000), 0);
   CHECK(dark.counts.met_mirror == 0);
   CHECK(dark.energy.missed_w == Approx(dark.energy.emitted_w));
   check_sum(dark.energy);
-  const auto below = NearField::disc({0, 0, -10}, {0, 0, 1}, 1000, Material{0, 0});
+  const auto below = NearField::disc({0, 0, -10}, {0, 0, 1}, 1000, Material::matt(0));
   const auto lit = test::fly({source, mirror, {}, below}, photons(1000), 0);
   CHECK(lit.energy.received_w == Approx(lit.energy.emitted_w));
   CHECK(lit.counts.stored == 1000);
@@ -137,7 +137,7 @@ TEST_CASE("a photon that leaves a real near field does not meet it again before 
   const Vector3 up = Vector3(0.1, 0.2, 1).normalized();
   const auto black = test::sphere(0, 50, -50);
   const PointSource source(30 * up, 1);
-  const auto floor = NearField::disc(1 * up, up, 60, Material{1, 0});
+  const auto floor = NearField::disc(1 * up, up, 60, Material::matt(1));
   constexpr double count = 20'000;
   const auto traced = test::fly({source, black, {0, 0}, floor}, photons(20'000), 0);
   CHECK(traced.counts.met_mirror == 20'000);
@@ -150,7 +150,7 @@ TEST_CASE("a photon meets a real near field again after the mirror") {
   // closed by dome and floor; only the floor absorbs, so everything ends there
   const auto dome = test::half_ellipsoid(0, 50, 50);
   const PointSource source({0, 0, 30}, 1);
-  const auto floor = NearField::disc({0, 0, 0}, {0, 0, 1}, 50 * (1 + 1e-12), Material{0.5, 0});
+  const auto floor = NearField::disc({0, 0, 0}, {0, 0, 1}, 50 * (1 + 1e-12), Material::matt(0.5));
   const auto traced = test::fly({source, dome, {1, 0}, floor}, photons(5000), 0);
   CHECK(traced.energy.received_w + traced.energy.missed_w == Approx(traced.energy.emitted_w).epsilon(1e-12));
   CHECK(traced.counts.stored > traced.counts.met_mirror);  // many land more than once
@@ -192,7 +192,7 @@ TEST_CASE("photons traced in their planes have the fates and crossings of those 
   const std::vector<NearField> fields{NearField::disc({0, 0, 0}, {0, 0, 1}, 60),
                                       NearField::disc({10, -20, 5}, {0.3, -0.2, 1}, 80),
                                       NearField::rectangle({30, 0, 70}, {-1, 0.2, 0.1}, {0, 1, 0}, 100, 60),
-                                      NearField::disc({0, 5, 20}, {0.1, 0, -1}, 30, Material{0, 0.5})};
+                                      NearField::disc({0, 5, 20}, {0.1, 0, -1}, 30, Material::matt(0, 0.5))};
   for (const Profile& profile : {bowl, pot, shell})
     for (const NearField& field : fields)
       for (const Material& material : {Material{1, 0}, Material{0.7, 0.2}})
