@@ -9,7 +9,14 @@ namespace catoptric {
 
 /// What random numbers are used for; each purpose has streams of its own, so that adding a draw in one place
 /// never shifts the numbers of another.
-enum class Purpose : std::uint32_t { emission = 1, interaction = 2, scrambling = 3, search = 4, test = 5, order = 6 };
+enum class Purpose : std::uint32_t {
+  emission = 1,
+  interaction = 2,
+  scrambling = 3,
+  search = 4,
+  test = 5,
+  order = 6
+};
 
 /// Counter-based random numbers: the same (seed, purpose, index) gives the same numbers in any order, on any
 /// thread. One stream belongs to one photon.
