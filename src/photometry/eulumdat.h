@@ -69,6 +69,9 @@ IntensityTable intensity_of(const EulumdatFile& file);
 /// The luminous area in mm. Length lies in the plane C90-C270, width in C0-C180.
 LuminousOpening opening_of(const EulumdatFile& file);
 
+/// Most angles to the axis that the format has room for.
+inline constexpr std::size_t most_eulumdat_angles = 361;
+
 /// A EULUMDAT file of this luminaire, with the most symmetry that the table has to the bit, flux fractions
 /// and direct ratios computed. Absolute photometry is lamps that give the luminaire's flux, their count < 0.
 /// @fails InputError when the table is no candela, dark, or has more angles than the format (721 by 361)

@@ -49,12 +49,12 @@ EulumdatSymmetry symmetry_of(const IntensityTable& table) {
 }
 
 void require_writable(const IntensityTable& table) {
-  constexpr std::size_t most_planes = 721, most_angles = 361;
+  constexpr std::size_t most_planes = 721;
   if (table.quantity() != LightQuantity::luminous)
     throw InputError({"an intensity in W/sr is no candela", "EULUMDAT file",
                       "EULUMDAT holds photometric data",
                       "convert it with the luminous efficacy of its light first"});
-  if (table.c_deg().size() > most_planes || table.gamma_deg().size() > most_angles)
+  if (table.c_deg().size() > most_planes || table.gamma_deg().size() > most_eulumdat_angles)
     throw InputError(
         {fmt::format("the table has {} planes of {} angles", table.c_deg().size(), table.gamma_deg().size()),
          "EULUMDAT file", "the format has at most 721 planes of 361 angles",

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "photometry/eulumdat.h"
 #include "photometry/intensity_file.h"
 #include "report/figures.h"
 #include "report/html_report.h"
@@ -157,12 +158,20 @@ WrittenFiles write_intensity(const design::Scene& scene, const LuminaireIntensit
   folder.text("scene.toml", design::scene_text(scene));
   folder.text("intensity.json", json_text(luminaire_json(scene, luminaire)));
   folder.table("intensity.csv", intensity_table(luminaire));
-  if (luminaire.table.quantity() == LightQuantity::luminous)
-    for (const char* name : {"luminaire.ies", "luminaire.ldt"})
+  const bool fits_eulumdat = luminaire.table.gamma_deg().size() <= photometry::most_eulumdat_angles;
+  if (luminaire.table.quantity() == LightQuantity::luminous) {
+    for (const char* name : {"luminaire.ies", "luminaire.ldt"}) {
+      if (std::string_view(name).ends_with("ldt") && !fits_eulumdat) continue;
       folder.made(name, [&](const std::filesystem::path& file) {
         photometry::write_intensity(file, luminaire.table, about(scene, luminaire));
       });
-  else
+    }
+    if (!fits_eulumdat)
+      folder.note(
+          fmt::format("no EULUMDAT file: the format has at most {} angles to the axis, the table {}; "
+                      "intensity.gamma_step = 0.5 fits",
+                      photometry::most_eulumdat_angles, luminaire.table.gamma_deg().size()));
+  } else
     folder.note("no photometric files: these are in lm, and the scene is in W (source.flux)");
   Page page{scene.title.empty() ? scene.settings.file() : scene.title,
             std::string("The luminaire from afar: source and mirror, without the near field.") +

@@ -116,6 +116,13 @@ TEST_CASE("intensity writes what lighting engineers read, and what it writes is 
     CHECK(second["angles"][0]["beam"].get<double>() ==
           Catch::Detail::Approx(result["angles"][0]["beam"].get<double>()).epsilon(0.02));
   }
+  const Ended fine = program_run("intensity '" + (folder / "lamp.toml").string() + "' --out '" +
+                                 (folder / "fine").string() + "' --set intensity.gamma_step=0.25");
+  INFO(fine.output);
+  CHECK(fine.code == 0);
+  CHECK_THAT(fine.output, Contains("no EULUMDAT file"));
+  CHECK(std::filesystem::exists(folder / "fine" / "luminaire.ies"));
+  CHECK_FALSE(std::filesystem::exists(folder / "fine" / "luminaire.ldt"));
   write_whole(folder / "watts.toml", scene_text("source.power = 5"));
   const Ended radiant = program_run("intensity '" + (folder / "watts.toml").string() + "' --out '" +
                                     (folder / "w").string() + "'");
