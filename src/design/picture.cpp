@@ -156,15 +156,20 @@ Picture read_picture(const Settings& settings, double unit_mm, std::vector<std::
 double asymmetry_rel(const Picture& picture, const sim::NearField& field) {
   const Vector3 foot_mm{0, 0, field.center_mm().z()};
   const Vector2 axis_mm = field.to_plane(foot_mm);
-  const double reach_mm = axis_mm.norm() + std::hypot(field.half_width_mm(), field.half_height_mm());
+  // Rings that do not meet both the picture and the field have no light.
+  const double half_mm = std::min(std::hypot(field.half_width_mm(), field.half_height_mm()),
+                                  0.5 * std::hypot(picture.width_mm, picture.height_mm));
+  const double first_mm = std::max(0.0, axis_mm.norm() - half_mm), reach_mm = axis_mm.norm() + half_mm;
   const double pixel_mm = std::min(picture.width_mm / static_cast<double>(picture.columns),
                                    picture.height_mm / static_cast<double>(picture.rows));
-  const auto radii = static_cast<std::size_t>(std::clamp(std::ceil(reach_mm / pixel_mm), 256.0, 2048.0));
+  const auto radii =
+      static_cast<std::size_t>(std::clamp(std::ceil((reach_mm - first_mm) / pixel_mm), 256.0, 1024.0));
   const auto directions =
-      static_cast<std::size_t>(std::clamp(std::ceil(2 * pi * reach_mm / pixel_mm), 512.0, 4096.0));
+      static_cast<std::size_t>(std::clamp(std::ceil(2 * pi * reach_mm / pixel_mm), 512.0, 2048.0));
   std::vector<double> squares, departures;
   for (std::size_t i = 0; i < radii; ++i) {
-    const double radius_mm = reach_mm * (static_cast<double>(i) + 0.5) / static_cast<double>(radii);
+    const double radius_mm =
+        first_mm + (reach_mm - first_mm) * (static_cast<double>(i) + 0.5) / static_cast<double>(radii);
     std::vector<double> ring;
     for (std::size_t j = 0; j < directions; ++j) {
       const double azimuth = 2 * pi * (static_cast<double>(j) + 0.5) / static_cast<double>(directions);

@@ -37,7 +37,7 @@ Picture read_picture(const Settings& settings, double unit_mm, std::vector<std::
 /// How far a picture on a near field across the z axis is from symmetric about it: the least relative root
 /// mean square error that a field can have which depends on the distance from the axis alone, that of its
 /// means over rings. Relative to the picture's root mean square, both over the near field.
-/// @error of a sum over 256 to 2048 radii and 512 to 4096 directions, about one for each pixel
+/// @error of a sum over 256 to 1024 radii and 512 to 2048 directions, about one for each pixel
 /// @cost  some 10 ms
 double asymmetry_rel(const Picture& picture, const sim::NearField& field);
 

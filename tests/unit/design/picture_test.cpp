@@ -193,6 +193,18 @@ TEST_CASE("what no symmetric light can be: closed forms of pictures that are not
   CHECK(asymmetry_rel(bowl, disc) < 1e-3);
 }
 
+TEST_CASE("a picture that is small on its near field is seen as finely as a large one") {
+  // the ramp on a disc once more, on a field a thousand times as wide, which is dark beyond
+  const double radius = 100, a = 0.006;
+  const Picture picture =
+      drawn(210, [&](double x, double y) { return std::hypot(x, y) < radius ? 1 + a * x : 0.0; });
+  const double rest = a * a * radius * radius / 4;
+  for (const double wide : {150.0, 1e5}) {
+    const sim::NearField field = sim::NearField::disc({0, 0, -50}, {0, 0, 1}, wide);
+    CHECK(asymmetry_rel(picture, field) == Approx(std::sqrt(rest / (1 + rest))).epsilon(0.01));
+  }
+}
+
 TEST_CASE("symmetric is about the axis, not about the near field's centre") {
   const sim::NearField aside = sim::NearField::disc({30, -20, -50}, {0, 0, 1}, 40);
   const Picture about_axis =
