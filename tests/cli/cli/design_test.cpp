@@ -39,7 +39,7 @@ TEST_CASE("design writes the whole set of files, and the result says what other 
     CHECK(entry.path().string().find(".partial") == std::string::npos);
 }
 
-TEST_CASE("the written scene gives the same result bit for bit, and threads change nothing") {
+TEST_CASE("the written scene gives the same result bit for bit, and threads change nothing", "[long]") {
   const TemporaryFolder folder;
   const auto run = [&](const std::string& scene, const std::string& name, const std::string& more) {
     const Ended ended =

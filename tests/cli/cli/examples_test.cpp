@@ -77,7 +77,7 @@ TEST_CASE("the downlight is designed beside its COB within its package, and has 
   CHECK(luminaire["zones"][0]["flux"]["value"] > 600);
 }
 
-TEST_CASE("the spot lamp's beam widens from the paraboloid's towards ten degrees") {
+TEST_CASE("the spot lamp's beam widens from the paraboloid's towards ten degrees", "[long]") {
   const TemporaryFolder folder;
   designed("narrow_spot.toml",
            "--set model.photons=8192 --set model.replicates=2 --set near_field.samples=100 "

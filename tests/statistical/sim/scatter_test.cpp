@@ -112,7 +112,7 @@ std::vector<double> counted(int photons, std::uint64_t seed, const Draw& draw) {
 
 }  // namespace
 
-TEST_CASE("scattered directions follow the reflectance distribution") {
+TEST_CASE("scattered directions follow the reflectance distribution", "[long]") {
   constexpr int photons = 200'000;
   Material metal = Material::metal(0.2, 3.4), table = Material::with_table({0, 1, 1.5}, {0.9, 0.3, 0.8});
   metal.roughness = 0.6;
@@ -150,7 +150,7 @@ TEST_CASE("normals drawn by D cos instead of those that are seen are found out")
   CHECK(test::rejected(chi_square_joined(counted(photons, 77, twin), expected(material, in, photons))));
 }
 
-TEST_CASE("what survives on a rough mirror is its albedo by quadrature") {
+TEST_CASE("what survives on a rough mirror is its albedo by quadrature", "[long]") {
   constexpr int photons = 40'000;
   double worst_z = 0;
   std::vector<double> values, expectations, noise;

@@ -231,7 +231,8 @@ TEST_CASE("a cylinder has no seam, and its light is that of the image behind the
   CHECK(light.reflected[2] == Approx(light.reflected[3]).epsilon(0.2));  // 0.1 mm beside the seam
 }
 
-TEST_CASE("in a closed room all light ends, after as many meetings as its walls' reflectance allows") {
+TEST_CASE("in a closed room all light ends, after as many meetings as its walls' reflectance allows",
+          "[long]") {
   constexpr double reflectance = 0.7;
   constexpr std::uint64_t photons = 100'000;
   const Material grey = Material::matt(reflectance);
@@ -251,7 +252,7 @@ TEST_CASE("in a closed room all light ends, after as many meetings as its walls'
   CHECK(test::plausible(share_p(light.energy.received_w, reflectance, photons)));
 }
 
-TEST_CASE("an integrating sphere has the same light everywhere, of all its reflections") {
+TEST_CASE("an integrating sphere has the same light everywhere, of all its reflections", "[long]") {
   constexpr double reflectance = 0.9, radius_mm = 100, power_w = 2;
   const Object sphere{
       "sphere", {make_cap({0, 0, 0}, {0, 0, 1}, radius_mm, pi)}, Material::matt(reflectance), {}};

@@ -131,7 +131,8 @@ TEST_CASE("a scene with things about takes photons, and says of each what it doe
                        Catch::Contains("other things stand about"));
 }
 
-TEST_CASE("a cover costs the light that Fresnel says, and what it throws back the mirror sends down again") {
+TEST_CASE("a cover costs the light that Fresnel says, and what it throws back the mirror sends down again",
+          "[long]") {
   const std::string cover =
       "[objects.cover]\nkind = \"pane\"\nradius = 1000\nthickness = 0.3\ncenter = [0, 0, 1]\n"
       "index = 1.5\n";
