@@ -91,7 +91,8 @@ function(catoptric_add_sanitized_tests room)
   if(room MATCHES "^(sim|optim)$")  # in one process, which so counts its statistical checks as well
     catoptric_add_sanitized_program(test_${room}_tsan tsan ${room} $<TARGET_OBJECTS:test_${room}_objects>)
     target_link_libraries(test_${room}_tsan PRIVATE Catch2::Catch2WithMain ${ARGN})
-    add_test(NAME "tsan: ${room}" COMMAND test_${room}_tsan ~[long]~[unsanitized]~[.] --warn NoTests)
+    # Ray tubes are traced by one thread.
+    add_test(NAME "tsan: ${room}" COMMAND test_${room}_tsan ~[tubes]~[long]~[unsanitized]~[.] --warn NoTests)
     set_tests_properties("tsan: ${room}" PROPERTIES TIMEOUT 600 COST 100)  # the longest of all first
   endif()
 endfunction()

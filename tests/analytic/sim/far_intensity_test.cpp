@@ -31,7 +31,7 @@ IntensityTable table(const IntensityGrid& grid, const FarIntensity& found) {
 
 }  // namespace
 
-TEST_CASE("a bare source has its own intensity from afar, about any axis") {
+TEST_CASE("a bare source has its own intensity from afar, about any axis", "[long]") {
   const test::FlatMirror far_away(1e5, 1);  // which light hardly meets
   const Vector3 axis = Vector3(0.4, -0.3, 0.8).normalized();
   const PointSource even({1, 2, 3}, power), beam({1, 2, 3}, power, 4, axis);

@@ -160,7 +160,7 @@ Verdict verdict(const std::function<Scene()>& make) {
 
 }  // namespace
 
-TEST_CASE("every key refuses numbers that are none, or the scene is finite") {
+TEST_CASE("every key refuses numbers that are none, or the scene is finite", "[long]") {
   std::size_t tried = 0, accepted = 0;
   for (const std::string& text : scenes()) {
     const Settings base = Settings::parse(text, "scene.toml", scene_keys());

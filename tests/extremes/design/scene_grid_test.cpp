@@ -140,7 +140,7 @@ void print(const Found& found) {
 }  // namespace
 
 TEST_CASE("scenes from a grid of extremes are refused in words, or sound and of one mind by every rung",
-          "[extremes]") {
+          "[extremes][long]") {
   Found found;
   for (std::uint64_t number = 0; number < 150; ++number) run(number, found);
   print(found);

@@ -105,7 +105,8 @@ TEST_CASE("rays of a known source bring its light, by way of the mirror and stra
   }
 }
 
-TEST_CASE("sets of photons show the noise of the rays themselves, and sets that share their rays do not") {
+TEST_CASE("sets of photons show the noise of the rays themselves, and sets that share their rays do not",
+          "[long]") {
   const Room room;
   const std::vector<FieldSample> samples{{{0, 0, 0}, {0, 0, 1}}};
   const double wanted = room.wanted(samples.front());
