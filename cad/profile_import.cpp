@@ -179,16 +179,6 @@ std::vector<std::string> notes_on(const CurveSource& source, const SourceCurve& 
   return notes;
 }
 
-/// OCCT reads about a MiB in a second and needs some ten times a file's size; a file that takes far more
-/// would go on for ever.
-detail::IsolationLimits limits_for(const std::filesystem::path& file, const ImportOptions& options) {
-  std::error_code ignored;
-  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
-  const std::uintmax_t bytes = ignored ? 0 : size;
-  const std::chrono::milliseconds usual = std::chrono::seconds(20 + static_cast<long>(bytes >> 19));
-  return {options.time_limit.value_or(usual), (std::size_t{1} << 30) + 32 * bytes};
-}
-
 }  // namespace
 
 ImportedProfile detail::import_here(const std::filesystem::path& file, ExchangeKind kind,
@@ -212,7 +202,8 @@ ImportedProfile detail::import_here(const std::filesystem::path& file, ExchangeK
 ImportedProfile import_profile(const std::filesystem::path& file, const ImportOptions& options) {
   const detail::ExchangeKind kind = detail::kind_of_file(file);
   return detail::unpack_profile(
-      detail::run_isolated(file.string(), limits_for(file, options),
+      detail::run_isolated(file.string(),
+                           detail::limits_for_file(file, options.time_limit, (std::size_t{1} << 30), 32),
                            [&] { return detail::pack_profile(detail::import_here(file, kind, options)); }),
       file);
 }

@@ -163,15 +163,6 @@ class FacetShape final : public SurfaceShape {
   std::vector<Vector3> normals_;
 };
 
-/// OCCT reads about a MiB in a second; meshes take more memory than curves.
-detail::IsolationLimits limits_of(const std::filesystem::path& file, const SurfaceImportOptions& options) {
-  std::error_code ignored;
-  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
-  const std::uintmax_t bytes = ignored ? 0 : size;
-  const std::chrono::milliseconds usual = std::chrono::seconds(20 + static_cast<long>(bytes >> 19));
-  return {options.time_limit.value_or(usual), (std::size_t{2} << 30) + 64 * bytes};
-}
-
 void check_chord(double chord_error) {
   const UntrappedFloats untrapped;  // NaN is one of the things refused
   constexpr double least = 1e-6, greatest = 0.1;
@@ -186,8 +177,9 @@ ImportedSurface import_surface(const std::filesystem::path& file, const SurfaceI
   check_chord(options.chord_error);
   const detail::ExchangeKind kind = detail::kind_of_file(file);
   const Facets facets =
-      unpack(detail::run_isolated(file.string(), limits_of(file, options),
-                                  [&] { return pack(facets_here(file, kind, options.chord_error)); }),
+      unpack(detail::run_isolated(
+                 file.string(), detail::limits_for_file(file, options.time_limit, (std::size_t{2} << 30), 64),
+                 [&] { return pack(facets_here(file, kind, options.chord_error)); }),
              file);
   Vector3 least = Vector3::Constant(std::numeric_limits<double>::infinity()), greatest = -least;
   for (const Vector3& point : facets.points_mm) {

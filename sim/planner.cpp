@@ -148,7 +148,7 @@ class Description {
           "a photon map of its own");
     if (is_direct_sampled(scene_))
       add("direct light", "some of it goes through things", "photons bring it too, with their noise");
-    else if (scene_.surroundings->may_shade())
+    else if (may_shade(scene_))
       add("shadow on direct light", "things may stand between", "a ray to every sample asks for them too");
   }
 

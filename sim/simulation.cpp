@@ -22,12 +22,18 @@ class OpenSpace final : public Probe {
 /// What stands in the way of direct light: the mirror, and what is opaque about it.
 class Shade final : public Probe {
  public:
-  explicit Shade(const Scene& scene) : mirror_(scene.reflector.probe()), room_(*scene.surroundings) {}
+  explicit Shade(const Scene& scene)
+      : mirror_(scene.reflector.probe()), near_field_(scene.near_field), room_(*scene.surroundings) {}
 
   std::optional<Hit> first_hit(const Ray& ray, double beyond_mm) override {
     const auto hit = mirror_->first_hit(ray, beyond_mm);
     const Ray ahead{ray.origin_mm + beyond_mm * ray.direction, ray.direction};
-    const auto stop = room_.first_opaque(ahead, hit ? hit->distance_mm - beyond_mm : HUGE_VAL);
+    double reach_mm = hit ? hit->distance_mm - beyond_mm : HUGE_VAL;
+    std::optional<double> stop;
+    if (near_field_.material())
+      for (const Arrival& arrival : near_field_.meet(ahead, false, reach_mm))
+        if (near_field_.contains(arrival.plane_mm)) stop = reach_mm = arrival.distance_mm;
+    if (const auto nearer = room_.first_opaque(ahead, reach_mm)) stop = nearer;
     if (!stop) return hit;
     const double distance_mm = *stop + beyond_mm;
     return Hit{distance_mm, ray.origin_mm + distance_mm * ray.direction, -ray.direction, 0};
@@ -40,11 +46,12 @@ class Shade final : public Probe {
 
  private:
   std::unique_ptr<Probe> mirror_;
+  const NearField& near_field_;
   const Surroundings& room_;
 };
 
 std::unique_ptr<Probe> shade_of(const Scene& scene) {
-  if (scene.surroundings && scene.surroundings->may_shade()) return std::make_unique<Shade>(scene);
+  if (may_shade(scene)) return std::make_unique<Shade>(scene);
   return scene.reflector.probe();
 }
 
@@ -58,8 +65,8 @@ std::vector<double> direct_field(const Scene& scene, std::span<const FieldSample
   const auto shine = [&](std::size_t i, Probe& probe) {
     return scene.source.direct_w_per_mm2(samples[i].point_mm, samples[i].normal, probe, lift_mm);
   };
-  const bool shaded = scene.surroundings && scene.surroundings->may_shade();
-  if (!shaded && is_view_clear(profile, scene.source.position_mm(), scene.source.extent_mm(), samples)) {
+  if (!may_shade(scene) &&
+      is_view_clear(profile, scene.source.position_mm(), scene.source.extent_mm(), samples)) {
     for (std::size_t i = 0; i < samples.size(); ++i)
       direct[i] = scene.source.unhindered_w_per_mm2(samples[i].point_mm, samples[i].normal);
     return direct;

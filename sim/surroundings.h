@@ -6,17 +6,11 @@
 #include <vector>
 
 #include "base/surface_shape.h"
+#include "sim/glass.h"
 #include "sim/material.h"
 #include "sim/near_field.h"
 
 namespace catoptric::sim {
-
-/// What a body of glass is made of.
-struct Glass {
-  double index = 1.5;            ///< refractive, against the air around it
-  double absorption_per_mm = 0;  ///< light falls like exp(-absorption * way) inside
-  bool operator==(const Glass&) const = default;
-};
 
 /// A thing that light meets besides the mirror: a sheet with a material, or a body of glass bounded by
 /// polished faces, fronts outside. What of the body's border is no face is its edge, black: light that gets

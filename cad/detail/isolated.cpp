@@ -162,6 +162,16 @@ std::string unpack(std::string_view where, const std::string& bytes) {
 
 }  // namespace
 
+IsolationLimits limits_for_file(const std::filesystem::path& file,
+                                std::optional<std::chrono::milliseconds> time_limit, std::size_t least_bytes,
+                                std::size_t bytes_of_a_byte) {
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+  const std::uintmax_t bytes = ignored ? 0 : size;
+  const std::chrono::milliseconds usual = std::chrono::seconds(20 + static_cast<long>(bytes >> 19));
+  return {time_limit.value_or(usual), least_bytes + bytes_of_a_byte * bytes};
+}
+
 std::string run_isolated(std::string_view where, const IsolationLimits& limits,
                          const std::function<std::string()>& work) {
   std::array<int, 2> ends{};

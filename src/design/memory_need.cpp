@@ -22,6 +22,12 @@ std::string size(std::uint64_t bytes) {
   return megabytes < 1000 ? fmt::format("{:.0f} MB", megabytes) : fmt::format("{:.3g} GB", megabytes / 1000);
 }
 
+std::uint64_t all_samples(const Scene& scene) {
+  std::uint64_t samples = scene.samples;
+  for (const FieldSpec& field : scene.fields) samples += field.samples;
+  return samples;
+}
+
 bool proof_keeps_photons(const Scene& scene) {
   return scene.accuracy_rel && simulation_plan(scene, start_candidate(scene)).rung == sim::Rung::photons;
 }
@@ -30,8 +36,11 @@ bool proof_keeps_photons(const Scene& scene) {
 
 MemoryNeed memory_need(const Scene& scene) {
   const sim::EstimateOptions& bandwidth = scene.model.estimate;
-  const std::uint64_t photons = sim::photon_memory_bytes(scene.model.photons.photons, bandwidth);
-  const std::uint64_t samples = numbers_of_a_sample * sizeof(double) * scene.samples * scene.model.replicates;
+  // Each field has a map of its own; of a fixed radius all maps together hold one batch.
+  const std::uint64_t maps = bandwidth.neighbours ? 1 + scene.fields.size() : 1;
+  const std::uint64_t photons = maps * sim::photon_memory_bytes(scene.model.photons.photons, bandwidth);
+  const std::uint64_t samples =
+      numbers_of_a_sample * sizeof(double) * all_samples(scene) * scene.model.replicates;
   if (proof_keeps_photons(scene)) {
     const std::uint64_t proof = sim::bytes_of_a_stored_photon * scene.model.most_photons;
     const std::uint64_t bytes = program_bytes + samples + std::max(proof, photons);

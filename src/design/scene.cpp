@@ -378,6 +378,7 @@ Scene make_scene(Settings settings) {
     const sim::NearField& field = scene.near_field;
     scene.near_field = sim::NearField::disc(field.center_mm(), field.normal(),
                                             std::max(field.half_width_mm(), field.half_height_mm()));
+    scene.grid = SampleGrid::area;
   }
   Settings tailored = tailored_settings(scene, from_nothing, notes);
   return build_scene(std::move(tailored), std::move(notes));

@@ -227,24 +227,24 @@ Target unmarked_target(const Scene& scene) {
   return {field_samples(scene), {}};
 }
 
-}  // namespace
-
-Target make_target(const Scene& scene) {
+/// The near field's target, functions of the radius seen through the kernel, but for paraboloids unless
+/// asked.
+Target kernel_target(const Scene& scene, bool paraboloids_too) {
   Target target = unmarked_target(scene);
   mark(scene, target);
   const auto wanted = radial_target(scene);
-  if (wanted && scene.target.kind != TargetKind::paraboloid && scene.model.estimate.kernel_radius_mm)
-    smooth(scene, *wanted, target);
+  const bool seen_through = paraboloids_too || scene.target.kind != TargetKind::paraboloid;
+  if (wanted && seen_through && scene.model.estimate.kernel_radius_mm) smooth(scene, *wanted, target);
   append_fields(scene, target);
   target.far = far_field(scene);
   return target;
 }
 
-Target blurred_target(const Scene& scene) {
-  Target target = make_target(scene);
-  if (scene.target.kind == TargetKind::paraboloid) smooth(scene, *radial_target(scene), target);
-  return target;
-}
+}  // namespace
+
+Target make_target(const Scene& scene) { return kernel_target(scene, false); }
+
+Target blurred_target(const Scene& scene) { return kernel_target(scene, true); }
 
 Target make_sharp_target(const Scene& scene) {
   Target target =

@@ -13,8 +13,11 @@ namespace catoptric::report {
 std::uint64_t room_for(const design::Scene& scene) {
   // Measured: 6.4 MB of plots, page and exchange files, and 140 bytes a sample.
   constexpr std::uint64_t files = 13'000'000, of_a_sample = 300;
-  return files + of_a_sample * scene.samples;
+  std::uint64_t samples = scene.samples;
+  for (const design::FieldSpec& field : scene.fields) samples += field.samples;
+  return files + of_a_sample * samples;
 }
+
 WrittenFiles write_design(const design::Scene& scene, const design::DesignResult& result,
                           const std::filesystem::path& path) {
   RunFolder folder(path);

@@ -4,6 +4,7 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstddef>
 #include <ostream>
@@ -89,6 +90,16 @@ inline double binomial_p(std::size_t successes, std::size_t trials, double proba
 inline double variance_ratio_p(double ratio, std::size_t degrees) {
   const double above = chi_square_tail(ratio * static_cast<double>(degrees), degrees);
   return 2 * std::min(above, 1 - above);
+}
+
+/// Two-sided p-value of the mean of independent sets being what is wanted.  @from Student 1908
+inline double student_p(const std::vector<double>& sets, double wanted) {
+  const auto n = static_cast<double>(sets.size());
+  double mean = 0, square = 0;
+  for (const double x : sets) mean += x / n;
+  for (const double x : sets) square += (x - mean) * (x - mean);
+  const double t = std::abs(mean - wanted) / std::sqrt(square / (n - 1) / n);
+  return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(n - 1), t));
 }
 
 /// p-value of independent estimates against their expectations, in units of the reported noise.

@@ -1,4 +1,3 @@
-#include <boost/math/quadrature/gauss.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -8,6 +7,7 @@
 #include "sim/scatter.h"
 #include "support/crossings.h"
 #include "support/flat_mirror.h"
+#include "support/quadrature.h"
 #include "support/statistics.h"
 
 /// Photons from mirrors that are not level or not smooth, against integrals of their own.
@@ -18,15 +18,6 @@ using namespace catoptric::sim;
 namespace {
 
 const PointSource focus({0, 0, 50}, pi / 100);
-
-template <typename F>
-double integral(double from, double to, int parts, const F& f) {
-  double sum = 0;
-  for (int i = 0; i < parts; ++i)
-    sum += boost::math::quadrature::gauss<double, 15>::integrate(f, from + (to - from) * i / parts,
-                                                                 from + (to - from) * (i + 1) / parts);
-  return sum;
-}
 
 /// Photons that cross the near field's plane by rings of equal width, and one place for the others.
 std::vector<double> ring_counts(const test::Flown& flown, double width_mm, std::size_t rings) {
@@ -66,13 +57,13 @@ Profile paraboloid() { return Profile::bezier({{0, 100, 1}, {50, 100, 1}, {100, 
 /// other.
 double flat_mirror_power(const Material& material, const Source& source, double inner, double outer) {
   const Vector3 up(0, 0, 1), from = source.position_mm();
-  return integral(0, 40, 3, [&](double r) {
+  return test::integral(0, 40, 3, [&](double r) {
     const Vector3 place(r, 0, 50), way = place - from;
     const double distance = way.norm();
     const Vector3 in = way / distance;
     const double irradiance = source.intensity_w_per_sr(in) * in.z() / (distance * distance);
-    return 2 * pi * r * irradiance * integral(inner, outer, 1, [&](double rho) {
-             return 2 * rho * integral(0, pi, 4, [&](double azimuth) {
+    return 2 * pi * r * irradiance * test::integral(inner, outer, 1, [&](double rho) {
+             return 2 * rho * test::integral(0, pi, 4, [&](double azimuth) {
                       const Vector3 on = Vector3(rho * std::cos(azimuth), rho * std::sin(azimuth), 0) - place;
                       const double length = on.norm(), cosine = 50 / length;
                       return bsdf(material, in, on / length, up) * cosine * cosine / (length * length);
@@ -95,8 +86,8 @@ TEST_CASE("photons of a paraboloid carry the reflectance at their own incidence"
       const auto want = [&](const Material& assumed) {
         std::vector<double> power;
         for (std::size_t i = 0; i < rings; ++i)
-          power.push_back(integral(10.0 * static_cast<double>(i), 10.0 * static_cast<double>(i + 1), 8,
-                                   [&](double r) { return 2 * pi * r * by_formula(assumed, r); }));
+          power.push_back(test::integral(10.0 * static_cast<double>(i), 10.0 * static_cast<double>(i + 1), 8,
+                                         [&](double r) { return 2 * pi * r * by_formula(assumed, r); }));
         return ring_expectations(flown, std::move(power));
       };
       const auto counts = ring_counts(flown, 10, rings);

@@ -1,4 +1,3 @@
-#include <boost/math/distributions/students_t.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
@@ -67,16 +66,6 @@ struct Room {
   }
 };
 
-/// Two-sided p of the mean of some independent sets being what is wanted.
-double student_p(const std::vector<double>& sets, double wanted) {
-  const auto n = static_cast<double>(sets.size());
-  double mean = 0, square = 0;
-  for (const double x : sets) mean += x / n;
-  for (const double x : sets) square += (x - mean) * (x - mean);
-  const double t = std::abs(mean - wanted) / std::sqrt(square / (n - 1) / n);
-  return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(n - 1), t));
-}
-
 }  // namespace
 
 TEST_CASE("rays of a known source bring its light, by way of the mirror and straight") {
@@ -95,7 +84,7 @@ TEST_CASE("rays of a known source bring its light, by way of the mirror and stra
         values.push_back(set.reflected[i]);
         CHECK(set.direct[i] == 0);
       }
-      CHECK(test::plausible(student_p(values, room.wanted(samples[i]))));
+      CHECK(test::plausible(test::student_p(values, room.wanted(samples[i]))));
     }
     const EnergyLedger& energy = sets.front().energy;
     CHECK(energy.emitted_w == power);
@@ -120,8 +109,8 @@ TEST_CASE("sets of photons show the noise of the rays themselves, and sets that 
       same.push_back(room.light(rays, samples, 1 << 15, 1 + set * parts_of_a_bundle, 4).reflected[0]);
     }
     // Fisher's sum over the files, each of which is another draw of the same source.
-    apart -= 2 * std::log(student_p(independent, wanted));
-    shared -= 2 * std::log(student_p(same, wanted));
+    apart -= 2 * std::log(test::student_p(independent, wanted));
+    shared -= 2 * std::log(test::student_p(same, wanted));
   }
   const boost::math::chi_squared fisher(2 * files);
   CHECK(test::plausible(boost::math::cdf(boost::math::complement(fisher, apart))));

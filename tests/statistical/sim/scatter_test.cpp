@@ -1,12 +1,12 @@
 #include "sim/scatter.h"
 
 #include <Eigen/Geometry>
-#include <boost/math/quadrature/gauss.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "base/units.h"
 #include "sim/microfacets.h"
+#include "support/quadrature.h"
 #include "support/statistics.h"
 
 using namespace catoptric;
@@ -25,25 +25,16 @@ Vector3 polar(double sine, double cosine, double azimuth) {
 /// Travels down towards the surface z = 0, from azimuth pi.
 Vector3 incoming(double incidence_rad) { return polar(std::sin(incidence_rad), -std::cos(incidence_rad), 0); }
 
-template <typename F>
-double integral(double from, double to, int parts, const F& f) {
-  double sum = 0;
-  for (int i = 0; i < parts; ++i)
-    sum += boost::math::quadrature::gauss<double, 15>::integrate(f, from + (to - from) * i / parts,
-                                                                 from + (to - from) * (i + 1) / parts);
-  return sum;
-}
-
 /// Share of the light that the glossy lobe sends on, by quadrature over the microfacets' normals that send it
 /// above the surface: the slope's own scale is alpha, so that no lobe is too narrow for it.
 double glossy_albedo(const Material& material, double incidence_rad) {
   const Vector3 in = incoming(incidence_rad), from = -in;
   const double alpha = material.roughness;
   // tan = alpha t / (1 - t) covers all tilts; two halves of the azimuth are alike.
-  return 2 * integral(0, 1, 24, [&](double t) {
+  return 2 * test::integral(0, 1, 24, [&](double t) {
            const double tangent = alpha * t / (1 - t), stretch = alpha / ((1 - t) * (1 - t));
            const double cosine = 1 / std::hypot(1.0, tangent), sine = tangent * cosine;
-           return integral(0, pi, 24, [&](double azimuth) {
+           return test::integral(0, pi, 24, [&](double azimuth) {
              const Vector3 facet = polar(sine, cosine, azimuth);
              const double facing = from.dot(facet);
              if (!(facing > 0)) return 0.0;
@@ -70,9 +61,9 @@ std::vector<double> expected(const Material& material, const Vector3& in, int ph
   for (std::size_t band = 0; band < bands; ++band)
     for (std::size_t column = 0; column < columns; ++column) {
       const double low = static_cast<double>(band) / bands, step = 2 * pi / columns;
-      const double share = integral(low, low + 1.0 / bands, 4, [&](double cosine) {
+      const double share = test::integral(low, low + 1.0 / bands, 4, [&](double cosine) {
         const double first = (static_cast<double>(column) - 0.5 * columns) * step;
-        return integral(first, first + step, 4, [&](double azimuth) {
+        return test::integral(first, first + step, 4, [&](double azimuth) {
           const Vector3 out = polar(std::sqrt(1 - cosine * cosine), cosine, azimuth);
           return bsdf(material, in, out, up) * cosine;
         });
@@ -193,9 +184,9 @@ TEST_CASE("directions mirrored at visible normals have their density") {
     for (std::size_t column = 0; column < columns; ++column) {
       const double low = static_cast<double>(band) / bands, step = 2 * pi / columns;
       double& due = want[1 + columns * band + column];
-      due = photons * integral(low, low + 1.0 / bands, 4, [&](double cosine) {
+      due = photons * test::integral(low, low + 1.0 / bands, 4, [&](double cosine) {
               const double first = (static_cast<double>(column) - 0.5 * columns) * step;
-              return integral(first, first + step, 4, [&](double azimuth) {
+              return test::integral(first, first + step, 4, [&](double azimuth) {
                 return facets.density(from, polar(std::sqrt(1 - cosine * cosine), cosine, azimuth));
               });
             });
@@ -215,7 +206,7 @@ TEST_CASE("directions mirrored at visible normals have their density") {
 TEST_CASE("a matt surface in an even light is as bright as the light") {
   for (const double cosine : {1.0, 0.5, 1e-3}) {
     const Vector3 out = polar(std::sqrt(1 - cosine * cosine), cosine, 1);
-    const double sent = 2 * pi * integral(0, 1, 1, [&](double c) {
+    const double sent = 2 * pi * test::integral(0, 1, 1, [&](double c) {
                           return bsdf(Material::matt(1), polar(std::sqrt(1 - c * c), -c, 0.3), out, up) * c;
                         });
     CHECK(sent == Approx(1).epsilon(1e-12));

@@ -1,6 +1,5 @@
 #include "sim/surroundings.h"
 
-#include <boost/math/distributions/students_t.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "sim/ray_source.h"
 #include "sim/simulation.h"
 #include "support/flat_mirror.h"
+#include "support/quadrature.h"
 #include "support/statistics.h"
 
 /// Things about the mirror, by what is known of their light in closed form.
@@ -59,16 +59,6 @@ Shares plate(double reflectance, double internal) {
 
 Shares mean(const Shares& a, const Shares& b) {
   return {0.5 * (a.through + b.through), 0.5 * (a.back + b.back), 0.5 * (a.kept + b.kept)};
-}
-
-/// Two-sided p of the mean of some independent sets being what is wanted.
-double student_p(const std::vector<double>& sets, double wanted) {
-  const auto n = static_cast<double>(sets.size());
-  const double mean = std::accumulate(sets.begin(), sets.end(), 0.0) / n;
-  double square = 0;
-  for (const double x : sets) square += (x - mean) * (x - mean);
-  const double t = std::abs(mean - wanted) / std::sqrt(square / (n - 1) / n);
-  return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(n - 1), t));
 }
 
 double share_p(double share, double wanted, std::uint64_t photons) {
@@ -280,7 +270,46 @@ TEST_CASE("an integrating sphere has the same light everywhere, of all its refle
   }
   const double darker = wall * 0.85 / (1 - 0.85);
   for (const std::vector<double>& values : of_sample) {
-    CHECK(test::plausible(student_p(values, of_reflections)));
-    CHECK(test::rejected(student_p(values, darker)));
+    CHECK(test::plausible(test::student_p(values, of_reflections)));
+    CHECK(test::rejected(test::student_p(values, darker)));
   }
+}
+
+TEST_CASE("a real near field stands in the way of further fields") {
+  const PointSource point({0, 0, 100}, 1);
+  const NearField table = NearField::disc({0, 0, 50}, {0, 0, 1}, 20, Material{0, 0});
+  const NearField floor = NearField::disc({0, 0, 0}, {0, 0, 1}, 90);
+  const Surroundings room({}, {{"floor", floor, 1}});
+  for (FieldSample sample : floor.samples(100)) {
+    sample.field = 1;
+    const double direct =
+        direct_field({point, out_of_the_way, {0, 0}, table, &room}, std::array{sample}).front();
+    const bool in_shadow = sample.point_mm.head<2>().norm() < 40;
+    CHECK(direct == (in_shadow ? 0 : point.unhindered_w_per_mm2(sample.point_mm, sample.normal)));
+  }
+}
+
+TEST_CASE("light that a near field sends to a further field does not know the mirror it never met") {
+  const PointSource point({0, 0, 30}, 1);
+  const NearField floor = NearField::disc({0, 0, 0}, {0, 0, 1}, 40, Material::matt(0.8));
+  const NearField ceiling = NearField::disc({0, 0, 60}, {0, 0, -1}, 40);
+  const Surroundings room({}, {{"ceiling", ceiling, 1}});
+  std::vector<FieldSample> samples = ceiling.samples(9);
+  for (FieldSample& sample : samples) sample.field = 1;
+  const auto light = [&](const Material& mirror) {
+    return simulate({point, out_of_the_way, mirror, floor, &room}, samples, {200'000, Sampler::random, 6},
+                    {Kernel::silverman, std::nullopt, 6});
+  };
+  const FieldEstimate bright = light({1, 0}), dim = light({0.25, 0});
+  CHECK(bright.reflected == dim.reflected);
+  // A ring of the floor lights the ceiling above its centre by Lambert's law.
+  const double power_w = test::integral(0, 40, 8, [&](double r) {
+    const double there = point.unhindered_w_per_mm2({r, 0, 0}, {0, 0, 1}), square = r * r + 60.0 * 60;
+    return 0.8 * there / pi * 2 * pi * r * 60 * 60 / (square * square);
+  });
+  const std::vector<FieldSample> middle{{{0, 0, 60}, {0, 0, -1}, 1}};
+  const FieldEstimate above = simulate({point, out_of_the_way, {1, 0}, floor, &room}, middle,
+                                       {2'000'000, Sampler::random, 6}, {Kernel::silverman, std::nullopt, 5});
+  CHECK(test::plausible(test::z_test_p(above.reflected, {power_w}, above.noise)));
+  CHECK(test::rejected(test::z_test_p(above.reflected, {0.6 * power_w}, above.noise)));
 }

@@ -118,6 +118,15 @@ TEST_CASE("samples of further fields count by their area and their weight, and n
   CHECK(on_wall.weights[70] > 0);
 }
 
+TEST_CASE("a paraboloid seen through the kernel leaves further fields what is wanted of them") {
+  const Scene read = scene(wall + "irradiance = 3\n[target]\nkind = \"paraboloid\"\nfocal_length = 5\n");
+  const Target plain = make_target(read), blurred = blurred_target(read);
+  REQUIRE(blurred.irradiance_w_per_mm2.size() == plain.irradiance_w_per_mm2.size());
+  CHECK(blurred.irradiance_w_per_mm2[0] != plain.irradiance_w_per_mm2[0]);
+  for (std::size_t i = 64; i < 88; ++i)
+    CHECK(blurred.irradiance_w_per_mm2[i] == plain.irradiance_w_per_mm2[i]);
+}
+
 TEST_CASE("a scene with things about takes photons, and says of each what it does") {
   const Scene covered = scene(
       "[objects.cover]\nkind = \"pane\"\nradius = 20\nthickness = 0.3\ncenter = [0, 0, 1]\n"
