@@ -34,10 +34,9 @@
 namespace catoptric::cad {
 namespace {
 
-/// Triangles as the reading process sends them, mm.
-struct Facets {
-  std::vector<Vector3> points_mm;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+/// What the reading process sends.
+struct ReadFaces {
+  Facets facets;
   std::size_t faces = 0;
 };
 
@@ -55,63 +54,64 @@ void add_face(const TopoDS_Face& face, Facets& facets) {
     mesh->Triangle(i).Get(a, b, c);
     if (reversed) std::swap(b, c);
     const auto index = [first](int node) { return first + static_cast<std::uint32_t>(node - 1); };
-    facets.triangles.push_back({index(a), index(b), index(c)});
+    facets.corners.push_back({index(a), index(b), index(c)});
   }
-  ++facets.faces;
 }
 
 /// What the child does: reads, meshes, counts.
-Facets facets_here(const std::filesystem::path& file, detail::ExchangeKind kind, double chord_error) {
+ReadFaces faces_here(const std::filesystem::path& file, detail::ExchangeKind kind, double chord_error) {
   using detail::ExchangeKind;
   kind == ExchangeKind::step ? detail::check_step_layout(file) : detail::check_iges_layout(file);
   const TopoDS_Shape shape = kind == ExchangeKind::step ? detail::read_step(file) : detail::read_iges(file);
   return detail::guarded("mesh the faces", file.string(), [&] {
-    Facets facets;
+    ReadFaces read;
     Bnd_Box box;
     BRepBndLib::Add(shape, box, false);
     if (!TopExp_Explorer(shape, TopAbs_FACE).More() || box.IsVoid())
       throw CadError({"holds no face", file.string(), "light can meet nothing there",
                       "export faces or solids, not curves alone"});
     detail::put_facets(shape, chord_error * std::sqrt(box.SquareExtent()));
-    for (TopExp_Explorer i(shape, TopAbs_FACE); i.More(); i.Next())
-      add_face(TopoDS::Face(i.Current()), facets);
-    return facets;
+    for (TopExp_Explorer i(shape, TopAbs_FACE); i.More(); i.Next(), ++read.faces)
+      add_face(TopoDS::Face(i.Current()), read.facets);
+    return read;
   });
 }
 
-std::string pack(const Facets& facets) {
+std::string pack(const ReadFaces& read) {
+  const Facets& facets = read.facets;
   detail::BytePacket packet;
-  packet.put(facets.faces);
+  packet.put(read.faces);
   packet.put(facets.points_mm.size());
   for (const Vector3& point : facets.points_mm)
     for (const double x : point) packet.put(x);
-  packet.put(facets.triangles.size());
-  for (const auto& triangle : facets.triangles)
+  packet.put(facets.corners.size());
+  for (const auto& triangle : facets.corners)
     for (const std::uint32_t corner : triangle) packet.put(std::size_t{corner});
   return packet.bytes();
 }
 
-Facets unpack(const std::string& bytes, const std::filesystem::path& file) {
+ReadFaces unpack(const std::string& bytes, const std::filesystem::path& file) {
   detail::ByteReader reader(bytes);
-  Facets facets;
-  facets.faces = reader.count();
+  ReadFaces read;
+  Facets& facets = read.facets;
+  read.faces = reader.count();
   facets.points_mm.resize(reader.count_of(3 * sizeof(double)));
   bool right = true;
   for (Vector3& point : facets.points_mm) {
     for (double& x : point) x = reader.number();
     right = right && point.allFinite();
   }
-  facets.triangles.resize(reader.count_of(3 * sizeof(std::size_t)));
-  for (auto& triangle : facets.triangles)
+  facets.corners.resize(reader.count_of(3 * sizeof(std::size_t)));
+  for (auto& triangle : facets.corners)
     for (std::uint32_t& corner : triangle) {
       const std::size_t index = reader.count();
       right = right && index < facets.points_mm.size();
       corner = static_cast<std::uint32_t>(index);
     }
-  if (!right || !reader.is_whole() || facets.triangles.empty())
+  if (!right || !reader.is_whole() || facets.corners.empty())
     throw CadError(
         {"its faces cannot be used", file.string(), "the reading process sent broken triangles", ""});
-  return facets;
+  return read;
 }
 
 /// Triangles in a ball of radius 1 about the origin, where Embree's floats are finest.
@@ -119,7 +119,7 @@ class FacetShape final : public SurfaceShape {
  public:
   FacetShape(const Facets& facets, const Vector3& center_mm, double size_mm)
       : center_mm_(center_mm), size_mm_(size_mm), scene_(mesh_of(facets)) {
-    for (const auto& [a, b, c] : facets.triangles) {
+    for (const auto& [a, b, c] : facets.corners) {
       const Vector3 &from = facets.points_mm[a], along = facets.points_mm[b] - from;
       normals_.push_back(along.cross(facets.points_mm[c] - from).stableNormalized());
     }
@@ -139,7 +139,7 @@ class FacetShape final : public SurfaceShape {
     if (!hit) return std::nullopt;
     const double distance_mm = (start + hit->t) * size_mm_;
     if (!(distance_mm <= reach_mm)) return std::nullopt;
-    return Meeting{distance_mm, normals_[triangle]};
+    return Meeting{distance_mm, normals_[triangle], triangle};
   }
 
  private:
@@ -153,7 +153,7 @@ class FacetShape final : public SurfaceShape {
       mesh.vertices.push_back(
           {static_cast<float>(at.x()), static_cast<float>(at.y()), static_cast<float>(at.z())});
     }
-    mesh.triangles = facets.triangles;
+    mesh.triangles = facets.corners;
     return mesh;
   }
 
@@ -176,21 +176,22 @@ void check_chord(double chord_error) {
 ImportedSurface import_surface(const std::filesystem::path& file, const SurfaceImportOptions& options) {
   check_chord(options.chord_error);
   const detail::ExchangeKind kind = detail::kind_of_file(file);
-  const Facets facets =
+  ReadFaces read =
       unpack(detail::run_isolated(
                  file.string(), detail::limits_for_file(file, options.time_limit, (std::size_t{2} << 30), 64),
-                 [&] { return pack(facets_here(file, kind, options.chord_error)); }),
+                 [&] { return pack(faces_here(file, kind, options.chord_error)); }),
              file);
   Vector3 least = Vector3::Constant(std::numeric_limits<double>::infinity()), greatest = -least;
-  for (const Vector3& point : facets.points_mm) {
+  for (const Vector3& point : read.facets.points_mm) {
     least = least.cwiseMin(point);
     greatest = greatest.cwiseMax(point);
   }
   const double size_mm = 0.5 * (greatest - least).norm();
   if (!(size_mm > 0))
     throw CadError({"its faces have no size", file.string(), "all corners are one point", "check the unit"});
-  return {std::make_shared<FacetShape>(facets, 0.5 * (least + greatest), size_mm), facets.faces,
-          facets.triangles.size(), least, greatest};
+  auto facets = std::make_shared<const Facets>(std::move(read.facets));
+  return {std::make_shared<FacetShape>(*facets, 0.5 * (least + greatest), size_mm), facets, read.faces, least,
+          greatest};
 }
 
 }  // namespace catoptric::cad

@@ -18,7 +18,8 @@ struct SurfaceImportOptions {
 /// Faces of a file as light meets them.
 struct ImportedSurface {
   std::shared_ptr<const SurfaceShape> shape;
-  std::size_t faces, triangles;
+  std::shared_ptr<const Facets> facets;  ///< its triangles, by the numbers that meetings name
+  std::size_t faces;
   Vector3 least_mm, greatest_mm;  ///< corners of the box that holds them
 };
 

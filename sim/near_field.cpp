@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/contract.h"
 #include "base/float_traps.h"
 #include "base/units.h"
 #include "sim/ray_roots.h"
@@ -14,14 +15,14 @@
 namespace catoptric::sim {
 namespace {
 
-[[noreturn]] void refuse(std::string what, std::string why, std::string hint) {
+[[noreturn]] void refuse_field(std::string what, std::string why, std::string hint) {
   throw InputError({std::move(what), "near field", std::move(why), std::move(hint)});
 }
 
 void check_size(double size_mm, std::string_view name) {
   if (!(std::isfinite(size_mm) && size_mm > 0))
-    refuse(fmt::format("{} of {} mm", name, size_mm), "a size is finite and greater than 0",
-           "give it a positive length");
+    refuse_field(fmt::format("{} of {} mm", name, size_mm), "a size is finite and greater than 0",
+                 "give it a positive length");
 }
 
 void check_material(const std::optional<Material>& material) {
@@ -36,9 +37,9 @@ void check_material(const std::optional<Material>& material) {
 Vector3 unit_normal(const Vector3& center_mm, const Vector3& normal) {
   const UntrappedFloats untrapped;  // NaN is one of the things refused
   if (!center_mm.allFinite())
-    refuse("the centre is not finite", "coordinates are finite numbers", "write three finite numbers");
+    refuse_field("the centre is not finite", "coordinates are finite numbers", "write three finite numbers");
   if (!normal.allFinite() || normal.isZero(0))
-    refuse("the normal has no direction", "a normal is finite and not zero", "(0, 0, 1) looks upwards");
+    refuse_field("the normal has no direction", "a normal is finite and not zero", "(0, 0, 1) looks upwards");
   return normal.stableNormalized();
 }
 
@@ -87,13 +88,13 @@ NearField NearField::rectangle(const Vector3& center_mm, const Vector3& normal, 
   check_size(height_mm, "height");
   check_material(material);
   if (!along.allFinite() || along.isZero(0))
-    refuse("the first axis has no direction", "an axis is finite and not zero", "(1, 0, 0) is usual");
+    refuse_field("the first axis has no direction", "an axis is finite and not zero", "(1, 0, 0) is usual");
   const Vector3 unit_along = along.stableNormalized();
   const Vector3 in_plane = unit_along - unit_along.dot(field.normal_) * field.normal_;
   constexpr double least_sine = 1e-6;  // below it the in-plane part keeps fewer than ten digits
   if (in_plane.norm() < least_sine)
-    refuse("the first axis is parallel to the normal", "it must have a part in the plane",
-           "choose another axis");
+    refuse_field("the first axis is parallel to the normal", "it must have a part in the plane",
+                 "choose another axis");
   field.first_axis_ = in_plane.normalized();
   field.second_axis_ = field.normal_.cross(field.first_axis_);
   field.shape_ = Shape::rectangle;
@@ -115,7 +116,17 @@ NearField NearField::cylinder(const Vector3& center_mm, const Vector3& axis, dou
   return field;
 }
 
+NearField NearField::facets(std::shared_ptr<const FacetField> facets, std::optional<Material> material) {
+  const double side_mm = std::sqrt(facets->area_mm2());
+  NearField field =
+      rectangle(Vector3::Zero(), Vector3::UnitZ(), Vector3::UnitX(), side_mm, side_mm, std::move(material));
+  field.shape_ = Shape::facets;
+  field.facets_ = std::move(facets);
+  return field;
+}
+
 Vector3 NearField::front_at(const Vector2& plane_mm) const {
+  if (shape_ == Shape::facets) return facets_->lit_normal(facets_->facet_at(plane_mm));
   if (shape_ != Shape::cylinder) return normal_;
   const double angle = plane_mm.x() / radius_mm_;
   const Vector3 outwards = std::cos(angle) * first_axis_ + std::sin(angle) * second_axis_;
@@ -124,6 +135,14 @@ Vector3 NearField::front_at(const Vector2& plane_mm) const {
 
 Arrivals NearField::meet(const Ray& ray, bool starts_here, double reach_mm) const {
   Arrivals arrivals;
+  if (shape_ == Shape::facets) {
+    if (const auto meeting = facets_->meet(ray, starts_here, reach_mm)) {
+      const Vector3 at_mm = ray.origin_mm + meeting->distance_mm * ray.direction;
+      arrivals.at[arrivals.count++] = {meeting->distance_mm, facets_->to_sheet(meeting->facet, at_mm),
+                                       meeting->normal.dot(ray.direction) < 0};
+    }
+    return arrivals;
+  }
   if (shape_ == Shape::cylinder) {
     const Vector3 from = ray.origin_mm - center_mm_;
     const Vector2 across{from.dot(first_axis_), from.dot(second_axis_)};
@@ -153,6 +172,10 @@ Arrivals NearField::meet(const Ray& ray, bool starts_here, double reach_mm) cons
 std::vector<FieldSample> NearField::samples(std::size_t count) const {
   std::vector<FieldSample> samples;
   if (count == 0) return samples;
+  if (shape_ == Shape::facets) {
+    for (const auto& [point_mm, normal] : facets_->places(count)) samples.push_back({point_mm, normal});
+    return samples;
+  }
   const auto add = [&](double x, double y) { samples.push_back({to_space({x, y}), front_at({x, y})}); };
   if (shape_ == Shape::disc) {
     const double golden_angle = pi * (3 - std::sqrt(5.0));
@@ -177,10 +200,12 @@ std::vector<FieldSample> NearField::samples(std::size_t count) const {
 }
 
 double NearField::area_mm2() const {
+  if (shape_ == Shape::facets) return facets_->area_mm2();
   return shape_ == Shape::disc ? pi * half_width_mm_ * half_width_mm_ : 4 * half_width_mm_ * half_height_mm_;
 }
 
 Vector2 NearField::to_plane(const Vector3& point_mm) const {
+  CATOPTRIC_EXPECTS(shape_ != Shape::facets);
   const Vector3 offset = point_mm - center_mm_;
   if (shape_ == Shape::cylinder)
     return {radius_mm_ * std::atan2(offset.dot(second_axis_), offset.dot(first_axis_)), offset.dot(normal_)};
@@ -188,6 +213,7 @@ Vector2 NearField::to_plane(const Vector3& point_mm) const {
 }
 
 Vector3 NearField::to_space(const Vector2& plane_mm) const {
+  if (shape_ == Shape::facets) return facets_->to_space(plane_mm);
   if (shape_ == Shape::cylinder) {
     const double angle = plane_mm.x() / radius_mm_;
     return center_mm_ + radius_mm_ * (std::cos(angle) * first_axis_ + std::sin(angle) * second_axis_) +
@@ -197,6 +223,7 @@ Vector3 NearField::to_space(const Vector2& plane_mm) const {
 }
 
 bool NearField::contains(const Vector2& plane_mm) const {
+  if (shape_ == Shape::facets) return true;
   if (shape_ == Shape::disc) return plane_mm.squaredNorm() <= half_width_mm_ * half_width_mm_;
   return std::abs(plane_mm.x()) <= half_width_mm_ && std::abs(plane_mm.y()) <= half_height_mm_;
 }

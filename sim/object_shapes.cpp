@@ -27,6 +27,15 @@ void require_place(const Vector3& center_mm, const Vector3& axis) {
                       "coordinates are finite, and an axis is not zero", "[0, 0, 1] looks upwards"});
 }
 
+constexpr double out_of_round = 1e-9;
+
+bool is_on_axis(const Vector3& center_mm, double size_mm) {
+  return center_mm.head<2>().norm() <= out_of_round * size_mm;
+}
+
+/// @in  unit
+bool is_along_axis(const Vector3& direction) { return direction.head<2>().norm() <= out_of_round; }
+
 /// Where a ray meets a plane, if that is ahead and near enough.
 std::optional<double> plane_distance(const Ray& ray, const Vector3& center_mm, const Vector3& normal,
                                      double reach_mm) {
@@ -52,6 +61,10 @@ class Disc final : public SurfaceShape {
     const double square = (ray.origin_mm + *distance_mm * ray.direction - center_mm_).squaredNorm();
     if (square > outer_square_ || square < inner_square_) return std::nullopt;
     return Meeting{*distance_mm, normal_};
+  }
+
+  bool is_round() const override {
+    return is_on_axis(center_mm_, std::sqrt(outer_square_)) && is_along_axis(normal_);
   }
 
  private:
@@ -106,6 +119,10 @@ class Tube final : public SurfaceShape {
     return std::nullopt;
   }
 
+  bool is_round() const override {
+    return is_on_axis(center_mm_, radius_mm_) && is_along_axis(frame_.col(2));
+  }
+
  private:
   Vector3 center_mm_;
   Eigen::Matrix3d frame_;
@@ -132,6 +149,11 @@ class Cap final : public SurfaceShape {
       return Meeting{t, sign_ * outwards};
     }
     return std::nullopt;
+  }
+
+  bool is_round() const override {
+    const bool whole = least_cosine_ == -HUGE_VAL;
+    return is_on_axis(center_mm_, radius_mm_) && (whole || is_along_axis(axis_));
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/contract.h"
+#include "sim/facet_estimate.h"
 
 namespace catoptric::sim {
 namespace {
@@ -116,6 +117,12 @@ PhotonFields photon_fields(const Scene& scene, std::span<const FieldSample> samp
       [&] {
         std::vector<MapEstimate> batch_estimates(bandwidths.size(), of_size(samples.size()));
         for (FieldPart& part : parts) {
+          if (const FacetField* facets = part.field.facets()) {
+            for (std::size_t i = 0; i < bandwidths.size(); ++i)
+              put(estimate_on_facets(*facets, part.landed, part.samples, part.bandwidths[i]), part.places,
+                  batch_estimates[i]);
+            continue;
+          }
           const PhotonMap map(part.field, std::move(part.landed));
           for (std::size_t i = 0; i < bandwidths.size(); ++i)
             put(map.estimate(part.samples, part.bandwidths[i]), part.places, batch_estimates[i]);

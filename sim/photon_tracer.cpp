@@ -183,9 +183,25 @@ class PhotonTracer {
   void record_flight(Photon& photon, double reach_mm, const std::optional<Stop>& stop) {
     for (std::size_t i = 0; i < fields(); ++i) {
       if (field_at(i).material()) continue;
-      for (const Arrival& arrival : meet(photon, i, reach_mm)) record(photon, arrival, i);
+      if (field_at(i).facets())
+        record_facets(photon, reach_mm, i);
+      else
+        for (const Arrival& arrival : meet(photon, i, reach_mm)) record(photon, arrival, i);
     }
     if (stop && stop->field) record(photon, stop->arrival, *stop->field);
+  }
+
+  /// All that the flight meets of facets, one after the other.
+  void record_facets(Photon& photon, double reach_mm, std::size_t field) {
+    Ray ray = photon.ray;
+    bool starts_here = photon.on_field == field;
+    for (Arrivals next = field_at(field).meet(ray, starts_here, reach_mm); next.count > 0;
+         next = field_at(field).meet(ray, starts_here, reach_mm)) {
+      record(photon, next.at[0], field);
+      ray.origin_mm += next.at[0].distance_mm * ray.direction;
+      reach_mm -= next.at[0].distance_mm;
+      starts_here = true;
+    }
   }
 
   void record(Photon& photon, const Arrival& arrival, std::size_t field) {
@@ -223,6 +239,9 @@ class PhotonTracer {
     if (field.shape() == NearField::Shape::cylinder) {
       const Vector3 front = field.front_at(arrival.plane_mm);
       frame << field.normal(), front.cross(field.normal()), front;
+    } else if (field.facets()) {
+      const Vector3 front = field.front_at(arrival.plane_mm), along = front.unitOrthogonal();
+      frame << along, front.cross(along), front;
     } else {
       frame << field.first_axis(), field.second_axis(), field.normal();
     }

@@ -9,7 +9,8 @@ namespace catoptric::sim {
 /// The part of the near field's plane where every photon is recorded: a disc or a rectangle about its centre,
 /// in plane coordinates. For an invisible register the patch and a margin round it, so that an estimate at
 /// the edge finds its neighbours outside; for a real patch the patch alone, since nothing lands beyond it. A
-/// cylinder has no edge on its way round: photons are recorded there once more beyond the seam.
+/// cylinder has no edge on its way round: photons are recorded there once more beyond the seam. Of facets
+/// all.
 struct RecordedArea {
   NearField::Shape shape = NearField::Shape::disc;
   double half_width_mm = 0, half_height_mm = 0;
@@ -22,6 +23,7 @@ struct RecordedArea {
   }
 
   bool contains(const Vector2& plane_mm) const {
+    if (shape == NearField::Shape::facets) return true;
     if (shape == NearField::Shape::disc) return plane_mm.squaredNorm() <= half_width_mm * half_width_mm;
     return std::abs(plane_mm.x()) <= half_width_mm && std::abs(plane_mm.y()) <= half_height_mm;
   }

@@ -61,7 +61,7 @@ std::vector<double> cuts_for(const Scene& scene, const RingsOptions& options, do
   std::vector<double> squares;
   if (options.edges_mm)
     for (double radius : *options.edges_mm) squares.push_back(radius * radius);
-  else
+  else if (scene.is_bare())  // things on the way move and stop the beam's edges
     squares = edge_landing_squares(scene);
   std::sort(squares.begin(), squares.end());
   // Nearer than this two cuts are one: the segment between would hold no photon in 1e9.
@@ -196,7 +196,8 @@ double RingsField::half_interval(std::size_t index, double level) const {
 }
 
 std::optional<std::string> rings_objection(const Scene& scene) {
-  if (!scene.is_bare()) return "other things stand about, whose symmetry is not looked at";
+  if (!scene.is_bare())
+    if (auto objection = scene.surroundings->asymmetry()) return objection;
   const Vector3 source = scene.source.position_mm();
   const NearField& field = scene.near_field;
   const Tolerance tolerance = Tolerance::for_scale(scene.reflector.profile().diagonal_mm());

@@ -88,6 +88,16 @@ std::optional<double> Surroundings::first_opaque(const Ray& ray, double reach_mm
   return nearest;
 }
 
+std::optional<std::string> Surroundings::asymmetry() const {
+  if (!fields_.empty())
+    return fmt::format("{} is a further field, whose light is not folded about the axis",
+                       fields_.front().name);
+  for (const Object& object : objects_)
+    for (const auto& face : object.faces)
+      if (!face->is_round()) return fmt::format("{} is not round about the axis", object.name);
+  return std::nullopt;
+}
+
 std::optional<std::size_t> Surroundings::body_around(const Vector3& point_mm) const {
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     if (!objects_[i].glass) continue;

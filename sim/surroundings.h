@@ -62,6 +62,9 @@ class Surroundings {
   /// count.
   std::optional<double> first_opaque(const Ray& ray, double reach_mm) const;
 
+  /// Why it is not round about the axis, seen from one near field: a thing that is not, or a further field.
+  std::optional<std::string> asymmetry() const;
+
   /// Whether light may go on from a thing here, so that it may reach the mirror or a field from anywhere.
   bool sends_light_on() const { return sends_light_on_; }
   /// Whether light may go through a thing here, so that what comes straight from the source has no closed

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "base/ray.h"
 
@@ -8,8 +11,9 @@ namespace catoptric {
 
 /// Where a ray meets a surface other than the mirror.
 struct Meeting {
-  double distance_mm;  ///< along the ray, from its origin
-  Vector3 normal;      ///< unit; it looks to the surface's front, whichever side the ray comes from
+  double distance_mm;       ///< along the ray, from its origin
+  Vector3 normal;           ///< unit; it looks to the surface's front, whichever side the ray comes from
+  std::uint32_t facet = 0;  ///< of a surface that is made of facets
 };
 
 /// A surface that light may meet besides the mirror. Safe to share between threads.
@@ -20,6 +24,19 @@ class SurfaceShape {
   /// The nearest meeting ahead, no farther than `reach_mm`.
   /// @in    starts_here: the ray starts where it met this surface before, and does not meet it there again
   virtual std::optional<Meeting> meet(const Ray& ray, bool starts_here, double reach_mm) const = 0;
+
+  /// Whether it certainly is one of revolution about the z axis, to a billionth of its size.
+  virtual bool is_round() const { return false; }
+};
+
+/// Flat triangles, corners counterclockwise as seen from the front.
+struct Facets {
+  std::vector<Vector3> points_mm;
+  std::vector<std::array<std::uint32_t, 3>> corners;  ///< of each triangle, its points
+
+  const Vector3& corner_mm(std::size_t facet, std::size_t corner) const {
+    return points_mm[corners[facet][corner]];
+  }
 };
 
 }  // namespace catoptric

@@ -132,11 +132,12 @@ std::vector<FurtherFigures> further_figures(const Scene& scene, std::span<const 
   for (std::size_t i = 0; i < scene.fields.size(); ++i) {
     const Part part = part_of(i + 1, samples, direct, reflected, sharp);
     if (part.samples.empty()) continue;  // a target of the near field alone
-    const double area_mm2 = scene.surroundings->fields()[i].field.area_mm2();
-    const std::vector<Figure> found =
-        figures_of_part(part, area_mm2 / static_cast<double>(part.samples.size()), {});
+    const double of_a_sample_mm2 =
+        scene.surroundings->fields()[i].field.area_mm2() / static_cast<double>(part.samples.size());
+    const std::vector<Figure> found = figures_of_part(part, of_a_sample_mm2, {});
     list.push_back({scene.fields[i].name,
                     part.samples.size(),
+                    std::sqrt(of_a_sample_mm2),
                     {found[0], found[1], found[2], found[3], found[4], found[5], {}, false}});
   }
   return list;

@@ -37,6 +37,7 @@ struct FieldFigures {
 struct FurtherFigures {
   std::string name;
   std::size_t samples;
+  double spacing_mm;     ///< the samples' mean distance: the root of a sample's area
   FieldFigures figures;  ///< without zones
 };
 

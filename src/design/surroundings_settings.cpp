@@ -13,6 +13,7 @@
 #include "base/units.h"
 #include "cad/surface_import.h"
 #include "design/source_settings.h"
+#include "sim/facet_field.h"
 #include "sim/object_shapes.h"
 
 namespace catoptric::design {
@@ -42,12 +43,14 @@ const std::map<std::string, KindKeys>& field_shapes() {
   static const std::map<std::string, KindKeys> shapes{
       {"disc", {{"radius"}, {"normal"}}},
       {"rectangle", {{"width", "height"}, {"normal", "along"}}},
-      {"cylinder", {{"radius", "length"}, {"normal", "lit"}}}};
+      {"cylinder", {{"radius", "length"}, {"normal", "lit"}}},
+      {"file", {{"file"}, {"chord_error", "lit"}}}};
   return shapes;
 }
 
-const std::vector<std::string> sizes{"radius",    "inner_radius", "width",  "height", "length",
-                                     "thickness", "half_angle",   "normal", "along",  "lit"};
+const std::vector<std::string> sizes{"radius", "inner_radius", "width",      "height",
+                                     "length", "thickness",    "half_angle", "normal",
+                                     "along",  "lit",          "file",       "chord_error"};
 const std::vector<std::string> of_sheets{"reflectance", "diffuse", "transmittance", "roughness"},
     of_fields{"reflectance", "transmittance"}, of_glass{"index", "absorption"};
 
@@ -157,6 +160,16 @@ void complete_object(Settings& settings, const std::string& name) {
   for (const char* key : {"reflectance", "diffuse", "transmittance"}) fill(key, "0.0");
 }
 
+void check_lit(const OneThing& field, const std::string& shape) {
+  if (!field.has("lit")) return;
+  const std::string lit = field.text("lit");
+  const bool of_file = lit == "front" || lit == "back";
+  if (of_file != (shape == "file"))
+    field.refuse("lit", "is no side of this shape",
+                 "a cylinder is lit inside or outside, the faces of a file on their front or back",
+                 shape == "file" ? "\"front\"" : "\"inside\"");
+}
+
 void complete_field(Settings& settings, const std::string& name) {
   const OneThing field(settings, fields, name);
   const auto fill = [&](const char* key, const std::string& value) { settings.fill(field.path(key), value); };
@@ -164,7 +177,14 @@ void complete_field(Settings& settings, const std::string& name) {
   const std::string shape = field.text("shape");
   field.check_sizes(field_shapes().at(shape), shape);
   fill("center", "[0.0, 0.0, 0.0]");
-  fill("normal", "[0.0, 0.0, 1.0]");
+  if (shape == "file") {
+    settings.make_absolute(field.path("file"));
+    fill("chord_error", "0.001");
+    fill("lit", "\"front\"");
+  } else {
+    fill("normal", "[0.0, 0.0, 1.0]");
+  }
+  check_lit(field, shape);
   if (shape == "cylinder") fill("lit", "\"inside\"");
   if (shape == "rectangle") fill("along", usual_along(settings, field.path("normal")));
   fill("samples", "256");
@@ -182,6 +202,13 @@ void complete_field(Settings& settings, const std::string& name) {
                      field.path("real") + " = true");
   if (settings.has("model.neighbours")) {
     refuse_all(field, {"kernel_radius"}, "model.neighbours sets the bandwidth");
+    return;
+  }
+  if (shape == "file") {
+    if (!field.has("kernel_radius"))
+      field.refuse("kernel_radius", "is missing",
+                   "how large a file's faces are is not known before it is read",
+                   "a tenth of their size is usual");
     return;
   }
   const double half = shape == "disc"       ? field.number("radius")
@@ -234,20 +261,41 @@ sim::ShapePointer moved(sim::ShapePointer shape, const Vector3& origin_mm) {
   return std::make_shared<Moved>(std::move(shape), origin_mm);
 }
 
+using Imported = std::shared_ptr<const cad::ImportedSurface>;
+
 /// Faces of a file. It is read once as long as some scene holds them: runs of a study and steps of a search
 /// make many scenes of one file.
-sim::ShapePointer imported(const OneThing& object) {
+Imported imported(const OneThing& thing) {
   static std::mutex mutex;
-  static std::map<std::string, std::weak_ptr<const SurfaceShape>> known;
-  const std::filesystem::path file = object.text("file");
+  static std::map<std::string, std::weak_ptr<const cad::ImportedSurface>> known;
+  const std::filesystem::path file = thing.text("file");
   std::error_code none;
   const auto changed = std::filesystem::last_write_time(file, none).time_since_epoch().count();
-  const std::string key = fmt::format("{}|{}|{}", file.string(), changed, object.number("chord_error"));
+  const std::string key = fmt::format("{}|{}|{}", file.string(), changed, thing.number("chord_error"));
   const std::lock_guard lock(mutex);
-  if (auto shape = known[key].lock()) return shape;
-  sim::ShapePointer shape = cad::import_surface(file, {object.number("chord_error")}).shape;
-  known[key] = shape;
-  return shape;
+  if (Imported surface = known[key].lock()) return surface;
+  const auto surface =
+      std::make_shared<const cad::ImportedSurface>(cad::import_surface(file, {thing.number("chord_error")}));
+  known[key] = surface;
+  return surface;
+}
+
+/// Its shape, which holds all of it.
+sim::ShapePointer shape_of(const Imported& surface) { return {surface, surface->shape.get()}; }
+
+sim::NearField facets_field(const OneThing& field, const Vector3& center_mm,
+                            const std::optional<sim::Material>& material) {
+  const Imported surface = imported(field);
+  std::shared_ptr<const Facets> facets = surface->facets;
+  if (!center_mm.isZero(0)) {
+    auto moved_facets = std::make_shared<Facets>(*facets);
+    for (Vector3& point_mm : moved_facets->points_mm) point_mm += center_mm;
+    facets = std::move(moved_facets);
+  }
+  return sim::NearField::facets(
+      std::make_shared<const sim::FacetField>(moved(shape_of(surface), center_mm), std::move(facets),
+                                              field.text("lit") == "front"),
+      material);
 }
 
 /// The faces of a thing, by its kind.
@@ -255,7 +303,7 @@ std::vector<sim::ShapePointer> faces(const OneThing& object, double unit_mm) {
   const auto length = [&](const char* key) { return object.number(key) * unit_mm; };
   const std::string kind = object.text("kind");
   const Vector3 center_mm = unit_mm * object.vector("center");
-  if (kind == "file") return {moved(imported(object), center_mm)};
+  if (kind == "file") return {moved(shape_of(imported(object)), center_mm)};
   const Vector3 normal = object.has("normal") ? object.direction("normal") : Vector3::UnitZ();
   const double half_angle = object.has("half_angle") ? object.number("half_angle") * pi / 180 : pi;
   if (kind == "disc") {
@@ -298,7 +346,7 @@ sim::Object object_of(const Settings& settings, const OneThing& thing, double un
 sim::MoreField field_of(const Settings& settings, const OneThing& thing, double unit_mm) {
   const auto length = [&](const char* key) { return thing.number(key) * unit_mm; };
   const std::string shape = thing.text("shape");
-  const Vector3 center_mm = unit_mm * thing.vector("center"), normal = thing.direction("normal");
+  const Vector3 center_mm = unit_mm * thing.vector("center");
   std::optional<sim::Material> material;
   if (*settings.boolean(thing.path("real"))) material = field_sheet(settings, thing);
   double scale = 1;
@@ -308,6 +356,8 @@ sim::MoreField field_of(const Settings& settings, const OneThing& thing, double 
       thing.refuse("kernel_radius", "reaches more than once round the cylinder",
                    "it is at most half the girth", "lower it");
   }
+  if (shape == "file") return {thing.name(), facets_field(thing, center_mm, material), scale};
+  const Vector3 normal = thing.direction("normal");
   if (shape == "disc")
     return {thing.name(), sim::NearField::disc(center_mm, normal, length("radius"), material), scale};
   if (shape == "cylinder")

@@ -88,6 +88,7 @@ Json field_json(const design::Scene& scene, const design::Judgement& judgement) 
   for (const design::FurtherFigures& further : judgement.further) {
     json["further"][further.name] = surface_json(further.figures, irradiance, flux);
     json["further"][further.name]["samples"] = further.samples;
+    json["further"][further.name]["spacing"] = scene.to_scene_unit(further.spacing_mm);
     further_samples += further.samples;
   }
   json["samples"] = samples_json(scene, judgement.reflected.size() - further_samples);
@@ -119,8 +120,14 @@ Table field_table(const design::Scene& scene, const design::Judgement& judgement
   for (const design::FurtherFigures& further : judgement.further) further_samples += further.samples;
   table.rows.push_back(
       {"samples: " + samples_text(scene, judgement.reflected.size() - further_samples), "", {}, {}, {}});
-  for (const auto& [name, samples, figures] : judgement.further) {
-    add(name + ", average " + light, irradiance, in_w_per_m2(figures.average_w_per_mm2));
+  for (const auto& [name, samples, spacing_mm, figures] : judgement.further) {
+    table.rows.push_back({fmt::format("{}: {} samples, {:.4g} {} apart on average", name, samples,
+                                      scene.to_scene_unit(spacing_mm), symbol(scene.unit)),
+                          "",
+                          {},
+                          {},
+                          {}});
+    add("  its average " + light, irradiance, in_w_per_m2(figures.average_w_per_mm2));
     add("  its U0", "", figures.uniformity);
     add("  its flux", flux, *figures.flux_w);
   }

@@ -55,7 +55,7 @@ TEST_CASE("a bare source has its own intensity from afar, about any axis", "[lon
   }
 }
 
-TEST_CASE("a flat mirror adds its image's intensity, times its reflectance") {
+TEST_CASE("a flat mirror adds its image's intensity, times its reflectance", "[threads]") {
   const test::FlatMirror mirror(10, 1e7);
   const PointSource source({0, 0, 0}, power);
   const IntensityGrid grid = even_grid(3, 0, frame_along({0, 0, -1}, {1, 0, 0}));

@@ -44,7 +44,7 @@ std::vector<double> with_threads(int threads, const Run& run) {
 
 }  // namespace
 
-TEST_CASE("1, 2 and 7 threads give the same bits") {
+TEST_CASE("1, 2 and 7 threads give the same bits", "[threads]") {
   const auto mirror = test::half_ellipsoid(50, 50, 80);
   const PointSource source({5, 0, 60}, 1);
   for (const auto& material :
@@ -69,7 +69,7 @@ TEST_CASE("1, 2 and 7 threads give the same bits") {
   }
 }
 
-TEST_CASE("an accuracy is reached with the same bits by 1, 2 and 7 threads") {
+TEST_CASE("an accuracy is reached with the same bits by 1, 2 and 7 threads", "[threads]") {
   const auto mirror = test::half_ellipsoid(50, 50, 80);
   const PointSource source({5, 0, 60}, 1);
   const auto field = NearField::rectangle({0, 0, 0}, {0.1, 0, 1}, {1, 0, 0}, 150, 100);

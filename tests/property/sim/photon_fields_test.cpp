@@ -21,7 +21,7 @@ const EstimateOptions wide{Kernel::silverman, {}, 8.0}, narrow{Kernel::epanechni
 
 }  // namespace
 
-TEST_CASE("photons summed batch by batch give what one map of all gives") {
+TEST_CASE("photons summed batch by batch give what one map of all gives", "[threads]") {
   const auto samples = field.samples(200);
   for (const std::uint64_t count :
        {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1024}, std::uint64_t{50'001}}) {
@@ -66,7 +66,7 @@ TEST_CASE("the memory that photons take is bounded by a batch, or grows where al
   CHECK(photon_memory_bytes(4'000'000'000, nearest) == 144'000'000'000);
 }
 
-TEST_CASE("photons in flight are given up once a stop is asked for") {
+TEST_CASE("photons in flight are given up once a stop is asked for", "[threads]") {
   const auto samples = field.samples(10);
   std::atomic<bool> stop{false};
   PhotonOptions photons{10'000, Sampler::sobol, 3, 2, 1000};

@@ -121,7 +121,7 @@ TEST_CASE("the ledger adds up for sources with an axis, and no more is emitted t
     }
 }
 
-TEST_CASE("1, 2 and 7 threads give the same bits with a disc and with a tilted point") {
+TEST_CASE("1, 2 and 7 threads give the same bits with a disc and with a tilted point", "[threads]") {
   const auto mirror = test::half_ellipsoid(50, 50, 80);
   const auto field = NearField::disc({0, 0, 20}, {0.1, 0, 1}, 40);
   const auto samples = field.samples(200);

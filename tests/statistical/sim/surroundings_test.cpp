@@ -12,6 +12,7 @@
 #include "sim/object_shapes.h"
 #include "sim/photon_fields.h"
 #include "sim/ray_source.h"
+#include "sim/rings.h"
 #include "sim/simulation.h"
 #include "support/flat_mirror.h"
 #include "support/quadrature.h"
@@ -143,7 +144,8 @@ TEST_CASE("a dome about a point dims its light and leaves it where it was") {
   CHECK(test::rejected(test::z_test_p(light.reflected, clear, light.noise)));
 }
 
-TEST_CASE("a black baffle takes the light of its solid angle, and shades direct light to the edge") {
+TEST_CASE("a black baffle takes the light of its solid angle, and shades direct light to the edge",
+          "[threads]") {
   const PointSource point({0, 0, 0}, 1);
   const NearField field = NearField::disc({0, 0, -100}, {0, 0, 1}, 80);
   const test::FlatMirror mirror{20, 60};
@@ -203,7 +205,7 @@ TEST_CASE("further fields see the photons that they see as near fields") {
   CHECK(std::accumulate(second.reflected.begin(), second.reflected.end(), 0.0) > 0);
 }
 
-TEST_CASE("a cylinder has no seam, and its light is that of the image behind the mirror") {
+TEST_CASE("a cylinder has no seam, and its light is that of the image behind the mirror", "[threads]") {
   const PointSource point({2, 1, 0}, 4), image({2, 1, 40}, 4);
   const test::FlatMirror mirror{20, 200};
   const NearField tube = NearField::cylinder({0, 0, -40}, {0, 0, 1}, 30, 40, true);
@@ -312,4 +314,52 @@ TEST_CASE("light that a near field sends to a further field does not know the mi
                                        {2'000'000, Sampler::random, 6}, {Kernel::silverman, std::nullopt, 5});
   CHECK(test::plausible(test::z_test_p(above.reflected, {power_w}, above.noise)));
   CHECK(test::rejected(test::z_test_p(above.reflected, {0.6 * power_w}, above.noise)));
+}
+
+TEST_CASE("round things about the axis are the same to rings as to photons") {
+  const LambertianDisc source({0, 0, 10}, 2, {0, 0, 1}, 2);
+  const test::FlatMirror mirror{20, 60};
+  const NearField floor = NearField::disc({0, 0, -20}, {0, 0, 1}, 30);
+  const Object baffle{"baffle", {make_disc({0, 0, -10}, {0, 0, 1}, 40, 12)}, {0, 0}, {}},
+      tube{"tube", {make_tube({0, 0, 0}, {0, 0, 1}, 25, 20)}, Material::matt(0.5), {}};
+  const Glass glass{1.5, 0.2};
+  const Surroundings room({pane(-5, 2, glass), baffle, tube}, {}), open({baffle, tube}, {});
+  std::vector<FieldSample> samples;
+  std::vector<double> radii;
+  for (const double radius : {2.0, 8.0, 14.0, 20.0, 26.0}) {
+    samples.push_back({{radius * std::cos(radius), radius * std::sin(radius), -20}, {0, 0, 1}});
+    radii.push_back(radius);
+  }
+  const FieldEstimate photons =
+      simulate({source, mirror, {0.8, 0}, floor, &room}, samples, {300'000, Sampler::random, 4},
+               {Kernel::silverman, std::nullopt, 2.5});
+  const auto rings = [&](const Surroundings& about) {
+    RingsOptions options;
+    options.photons = {1'000'000, Sampler::sobol, 5};
+    options.widest_kernel_radius_mm = 2.5;
+    return RingPhotons({source, mirror, {0.8, 0}, floor, &about}, options).smoothed(radii, 2.5);
+  };
+  CHECK(test::plausible(test::z_test_p(photons.reflected, rings(room), photons.noise)));
+  CHECK(test::rejected(test::z_test_p(photons.reflected, rings(open), photons.noise)));
+}
+
+TEST_CASE("rings say what is not round about the axis") {
+  const PointSource point({0, 0, 10}, 1);
+  const test::FlatMirror mirror{20, 60};
+  const NearField floor = NearField::disc({0, 0, -20}, {0, 0, 1}, 30);
+  const auto objection = [&](const ShapePointer& shape) {
+    const Surroundings room({{"thing", {shape}, {0, 0}, {}}}, {});
+    return rings_objection({point, mirror, {1, 0}, floor, &room}).value_or("");
+  };
+  CHECK(objection(make_disc({0, 0, 1}, {0, 0, -3}, 5, 2)) == "");
+  CHECK(objection(make_cap({0, 0, 1}, {1, 0, 0}, 5, pi)) == "");
+  CHECK(objection(make_tube({0, 0, 1}, {0, 0, 2}, 5, 2)) == "");
+  for (const ShapePointer& shape :
+       {make_disc({1e-3, 0, 1}, {0, 0, 1}, 5), make_disc({0, 0, 1}, {1e-4, 0, 1}, 5),
+        make_cap({0, 0, 1}, {1, 0, 1}, 5, 1), make_cap({0, 1, 1}, {0, 0, 1}, 5, pi),
+        make_tube({0, 0, 1}, {0, 1, 1}, 5, 2), make_rectangle({0, 0, 1}, {0, 0, 1}, {1, 0, 0}, 5, 5)})
+    CHECK(objection(shape) == "thing is not round about the axis");
+  const Surroundings more({}, {{"wall", floor, 1}});
+  CHECK_THAT(*rings_objection({point, mirror, {1, 0}, floor, &more}),
+             Catch::Contains("wall is a further field"));
 }

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "base/units.h"
+#include "cad/export.h"
 #include "design/evaluator.h"
 #include "design/field_targets.h"
 #include "design/judge.h"
@@ -11,6 +13,7 @@
 #include "design/scene.h"
 #include "design/target.h"
 #include "sim/fresnel.h"
+#include "support/temporary_folder.h"
 
 using namespace catoptric;
 using namespace catoptric::design;
@@ -127,12 +130,16 @@ TEST_CASE("a paraboloid seen through the kernel leaves further fields what is wa
     CHECK(blurred.irradiance_w_per_mm2[i] == plain.irradiance_w_per_mm2[i]);
 }
 
-TEST_CASE("a scene with things about takes photons, and says of each what it does") {
-  const Scene covered = scene(
-      "[objects.cover]\nkind = \"pane\"\nradius = 20\nthickness = 0.3\ncenter = [0, 0, 1]\n"
-      "index = 1.5\n");
-  const sim::Plan plan = make_plan(covered, covered.profile);
-  CHECK(plan.rung == sim::Rung::photons);
+TEST_CASE("a scene with things about takes rings where they are round, and says of each what it does") {
+  const auto plan_with = [](const std::string& center) {
+    const Scene covered =
+        scene("[objects.cover]\nkind = \"pane\"\nradius = 20\nthickness = 0.3\ncenter = " + center +
+              "\nindex = 1.5\n");
+    return make_plan(covered, covered.profile);
+  };
+  CHECK(plan_with("[0.1, 0, 1]").rung == sim::Rung::photons);
+  const sim::Plan plan = plan_with("[0, 0, 1]");
+  CHECK(plan.rung == sim::Rung::rings);
   std::string said;
   for (const sim::Finding& finding : plan.findings)
     said += finding.feature + "|" + finding.found + "|" + finding.consequence + "\n";
@@ -169,6 +176,31 @@ TEST_CASE("a cover costs the light that Fresnel says, and what it throws back th
   CHECK(all < 1.05);
 }
 
+TEST_CASE("the faces of a file are a field like the shape they have") {
+  const test::TemporaryFolder folder;
+  const auto file = folder / "tube.step";
+  cad::export_reflector(Profile(1, {0, 0, 1, 1}, {{70, -40, 1}, {70, 20, 1}}), file);
+  const std::string size = "samples = 300\nkernel_radius = 1\n",
+                    tube = "shape = \"cylinder\"\nradius = 7\nlength = 6\ncenter = [0, 0, -1]\n" + size,
+                    faces = "shape = \"file\"\nchord_error = 1e-4\nfile = '" + file.string() + "'\n" + size;
+  std::string all =
+      text("[fields.a]\n" + tube + "lit = \"inside\"\n[fields.b]\n" + faces + "lit = \"back\"\n[fields.c]\n" +
+           faces + "lit = \"front\"\n[fields.d]\n" + tube + "lit = \"outside\"\n");
+  const std::string focus = "position = [0, 0, 5]";
+  all.replace(all.find(focus), focus.size(),
+              "position = [0, 0, 4]");  // else reflected light is parallel to them
+  const Scene read = make_scene(Settings::parse(all, "s.toml", scene_keys()));
+  const std::vector<FurtherFigures> found =
+      judge(read, make_target(read), read.profile, sim::Rung::photons, 1).further;
+  REQUIRE(found.size() == 4);
+  const auto flux = [&](std::size_t i) { return found[i].figures.flux_w->value; };
+  CHECK(flux(0) > 0.1);
+  CHECK(flux(3) > 0.02);
+  CHECK(flux(1) == Approx(flux(0)).epsilon(0.02));
+  CHECK(flux(2) == Approx(flux(3)).epsilon(0.02));
+  CHECK(found[1].spacing_mm == Approx(std::sqrt(2 * pi * 70 * 60 / 300)).epsilon(1e-3));
+}
+
 TEST_CASE("things that make no sense are refused by their keys") {
   refused("[objects.a]\nradius = 1\n", "objects.a.kind: is missing");
   refused("[objects.a]\nkind = \"disc\"\n", "objects.a.radius: is missing");
@@ -191,6 +223,13 @@ TEST_CASE("things that make no sense are refused by their keys") {
   refused("[fields.a]\nwidth = 1\nheight = 1\nalong = [0, 0, 1]\n", "is parallel to the normal");
   refused("[fields.a]\nshape = \"cylinder\"\nradius = 1\nlength = 9\nkernel_radius = 4\n",
           "more than once round");
+  refused("[fields.a]\nshape = \"file\"\n", "fields.a.file: is missing");
+  refused("[fields.a]\nshape = \"file\"\nfile = \"a.step\"\n", "fields.a.kernel_radius: is missing");
+  refused("[fields.a]\nshape = \"file\"\nfile = \"a.step\"\nkernel_radius = 1\n", "a.step");
+  refused("[fields.a]\nshape = \"file\"\nfile = \"a.step\"\nlit = \"inside\"\n", "is no side of this shape");
+  refused("[fields.a]\nshape = \"cylinder\"\nradius = 1\nlength = 9\nlit = \"back\"\n",
+          "is no side of this shape");
+  refused("[fields.a]\nwidth = 1\nheight = 1\nfile = \"a.step\"\n", "does not belong to a rectangle");
   CHECK_THROWS_WITH(make_scene(Settings::parse("accuracy = 0.01\n" + text(wall), "s.toml", scene_keys())),
                     Catch::Contains("proven for the near field alone"));
 }

@@ -109,7 +109,7 @@ TEST_CASE("photons count only on the side they arrived at") {
   CHECK(behind.estimate(std::vector{below}, radius(2)).irradiance[0] > 0);
 }
 
-TEST_CASE("the map finds what a loop over all photons finds, evenly spread or crowded") {
+TEST_CASE("the map finds what a loop over all photons finds, evenly spread or crowded", "[threads]") {
   auto points = scattered(5000);
   const bool crowded = GENERATE(false, true);
   // Most of them in a thousandth of the area, on a line, or in one point, the rest where they were.
@@ -160,7 +160,7 @@ TEST_CASE("a bandwidth must be set, once, and be positive") {
   CHECK_NOTHROW(check(radius(1e-9)));
 }
 
-TEST_CASE("a ladder of radii shows what each radius by itself shows") {
+TEST_CASE("a ladder of radii shows what each radius by itself shows", "[threads]") {
   auto points = scattered(3000);
   points.push_back({0, 0});  // on a sample: its squared distance has no binary exponent
   points.push_back({4, 0});  // on the border of the widest kernel about that sample: no weight, nor beyond it
