@@ -195,8 +195,9 @@ class PhotonTracer {
   void record_facets(Photon& photon, double reach_mm, std::size_t field) {
     Ray ray = photon.ray;
     bool starts_here = photon.on_field == field;
-    for (Arrivals next = field_at(field).meet(ray, starts_here, reach_mm); next.count > 0;
-         next = field_at(field).meet(ray, starts_here, reach_mm)) {
+    while (true) {
+      const Arrivals next = field_at(field).meet(ray, starts_here, reach_mm);
+      if (next.count == 0) return;
       record(photon, next.at[0], field);
       ray.origin_mm += next.at[0].distance_mm * ray.direction;
       reach_mm -= next.at[0].distance_mm;

@@ -129,35 +129,35 @@ TEST_CASE("a wall of facets sees what the same rectangle sees", "[threads]") {
 TEST_CASE("all light that leaves goes through a sphere of facets about it, once and outwards") {
   const Vector3 centre{1, 2, 3};
   const auto sphere = [&](bool lit_front) {
-    return NearField::facets(field_of(test::icosphere(centre, 100, 3), lit_front));
+    return NearField::facets(field_of(test::icosphere(centre, 100, 2), lit_front));
   };
   const Surroundings room({}, {{"inside", sphere(false), 1}, {"outside", sphere(true), 1}});
   const NearField inside = sphere(false);
   const auto samples = joined(on_field(inside.samples(400), 1), on_field(sphere(true).samples(400), 2));
-  const FieldEstimate light = light_on(room, samples, {Kernel::silverman, std::nullopt, 15}, 20'000);
+  const FieldEstimate light = light_on(room, samples, {Kernel::silverman, std::nullopt, 15}, 10'000);
   const auto half = [](const std::vector<double>& all, std::ptrdiff_t first) {
     return std::vector<double>(all.begin() + first, all.begin() + first + 400);
   };
   const double reflected = flux(half(light.reflected, 0), inside.area_mm2());
-  CHECK(flux(half(light.direct, 0), inside.area_mm2()) + reflected / 0.8 == Approx(2).epsilon(0.01));
+  CHECK(flux(half(light.direct, 0), inside.area_mm2()) + reflected / 0.8 == Approx(2).epsilon(0.02));
   CHECK(reflected > 0.3);
   for (std::size_t i = 400; i < 800; ++i) CHECK((light.reflected[i] == 0 && light.direct[i] == 0));
 }
 
 TEST_CASE("a flight meets all that it crosses of an invisible body: as much leaves it as enters") {
   const auto ball = [](bool lit_front) {
-    return NearField::facets(field_of(test::icosphere({0, 0, -30}, 20, 3), lit_front));
+    return NearField::facets(field_of(test::icosphere({0, 0, -30}, 20, 2), lit_front));
   };
   const Surroundings room({}, {{"enters", ball(true), 1}, {"leaves", ball(false), 1}});
   const NearField one = ball(true);
   const auto samples = joined(on_field(one.samples(300), 1), on_field(ball(false).samples(300), 2));
-  const FieldEstimate light = light_on(room, samples, {Kernel::silverman, std::nullopt, 3}, 100'000);
+  const FieldEstimate light = light_on(room, samples, {Kernel::silverman, std::nullopt, 3}, 40'000);
   const std::vector<double> enters(light.reflected.begin(), light.reflected.begin() + 300),
       leaves(light.reflected.begin() + 300, light.reflected.end());
   // The image of the lamp stands at z = 40.
   const double sine = 20 / Vector3(3, 0, 70).norm(), caught = 0.5 * (1 - std::sqrt(1 - sine * sine));
-  CHECK(flux(enters, one.area_mm2()) == Approx(0.8 * 2 * caught).epsilon(0.03));
-  CHECK(flux(enters, one.area_mm2()) == Approx(flux(leaves, one.area_mm2())).epsilon(0.02));
+  CHECK(flux(enters, one.area_mm2()) == Approx(0.8 * 2 * caught).epsilon(0.06));
+  CHECK(flux(enters, one.area_mm2()) == Approx(flux(leaves, one.area_mm2())).epsilon(0.05));
 }
 
 TEST_CASE("real facets stop light, scatter it and shade like rectangles, around a corner too") {

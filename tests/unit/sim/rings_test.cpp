@@ -89,7 +89,8 @@ TEST_CASE("rings: no photon is dark, one photon is finite, fewer photons than re
   CHECK(rings_field({source, mirror, {}, field}, {}, {}).irradiance.empty());
 }
 
-TEST_CASE("rings: 1, 2 and 7 threads give the same bits, in plane and in space, counted and sorted", "[threads]") {
+TEST_CASE("rings: 1, 2 and 7 threads give the same bits, in plane and in space, counted and sorted",
+          "[threads]") {
   const auto meridian = cad::make_meridian_reflector(mirror.profile());
   for (bool in_plane : {true, false})
     for (RingStorage storage : {RingStorage::counted, RingStorage::sorted})
