@@ -9,7 +9,7 @@ build_packages=(
   g++ cmake ninja-build ccache git ca-certificates
   libocct-data-exchange-dev libfontconfig-dev libeigen3-dev libtbb-dev libfmt-dev
   libceres-dev libpagmo-dev libnlopt-dev libembree-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libpng-dev
-  librandom123-dev libnanoflann-dev libboost-dev libkainjow-mustache-dev
+  librandom123-dev libnanoflann-dev libdxflib-dev libboost-dev libkainjow-mustache-dev
   gnuplot-nox
 )
 test_packages=(catch2 freecad-python3 clang-format-14)

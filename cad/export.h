@@ -11,10 +11,11 @@
 
 namespace catoptric::cad {
 
-/// STEP, IGES and BREP keep the exact surface; STL and GLB are meshes for viewing and printing.
-enum class FileFormat { step, iges, brep, stl, glb };
+/// STEP, IGES and BREP keep the exact surface; STL and GLB are meshes for viewing and printing; DXF is the
+/// half section in the plane, for spinning and turning.
+enum class FileFormat { step, iges, brep, stl, glb, dxf };
 
-/// The format that a file name's extension asks for: .step .stp, .igs .iges, .brep .brp, .stl, .glb.
+/// The format that a file name's extension asks for: .step .stp, .igs .iges, .brep .brp, .stl, .glb, .dxf.
 /// @fails CadError for any other extension
 FileFormat format_of(const std::filesystem::path& path);
 
@@ -28,11 +29,23 @@ enum class StepSchema { ap203, ap214, ap242 };
 /// a solid.
 enum class IgesMode { faces, brep };
 
+/// How a DXF holds curves. Weights of a rational spline are ignored by some readers, which then show another
+/// mirror without a word; a polyline is read by all.
+enum class DxfCurves { automatic, splines, polylines };
+
+/// What the part is made of.
+struct PartMaterial {
+  std::string name;  ///< printable ASCII; empty: not said
+  std::optional<double> density_kg_per_m3;
+};
+
 struct ExportOptions {
   LengthUnit unit =
       LengthUnit::millimetre;  ///< of the numbers in the file. BREP is always in mm; GLB in metres
   StepSchema schema = StepSchema::ap214;
   IgesMode iges_mode = IgesMode::faces;
+  DxfCurves dxf_curves = DxfCurves::automatic;
+  PartMaterial material;              ///< of a walled mirror, in STEP of AP242
   std::optional<Wall> wall;           ///< nothing: the open optical surface
   std::string product = "reflector";  ///< printable ASCII, like the two that follow
   std::string author;                 ///< empty unless said; never the login name
@@ -50,11 +63,13 @@ struct ExportReport {
   ShapeFigures figures;             ///< of the shape that was written
   double largest_deviation_mm = 0;  ///< of poles and bounding box, written against read back (exact formats)
   int triangle_count = 0;           ///< meshes only
+  double chord_mm = 0;  ///< meshes, and polylines of a DXF: how far they may be from the part; 0: not at all
 };
 
 /// Writes the mirror to a file whose extension says the format, whole or not at all. The optical axis is the
 /// file's z axis. Exact files are read back with a fresh reader and compared: generatrix (degree, knots,
-/// poles, weights), axis, kinds of surfaces, bounding box, area, volume.
+/// poles, weights), axis, kinds of surfaces, bounding box, area, volume; in STEP of AP242 names, colours and
+/// material too; a DXF number by number.
 /// @in    options.chord_tolerance_rel in [1e-6, 0.1]; the part's extent as least_cad_extent_mm says
 /// @fails CadError when the shape cannot be built or the file lost something, IoError when it cannot be
 ///        written, InputError for an invalid option; then no file is left

@@ -11,10 +11,19 @@ namespace catoptric::cad {
 /// A flat mirror has its wall outside at greater z when the profile runs outward.
 enum class WallSide { outside, inside };
 
-/// A wall of constant thickness, measured along the normal of the optical surface.
+/// A flat ring at the rim, across the axis: from the rim's edge outward, one face in the rim's plane, the
+/// other on the side where the wall stands. The wall's outer side ends where it meets that one.
+struct Flange {
+  double width_mm = 0;                 ///< from the rim of the optical surface
+  std::optional<double> thickness_mm;  ///< along the axis; nothing: the wall's
+};
+
+/// A wall of constant thickness, measured along the normal of the optical surface. Its ends off the axis (the
+/// rim, the edge of an opening) stand along the normal too, but for a flange.
 struct Wall {
   double thickness_mm = 0;
   WallSide side = WallSide::outside;
+  std::optional<Flange> flange = {};  ///< on the outside only
 };
 
 /// What the CAD kernel says of a shape.

@@ -174,6 +174,17 @@ std::optional<std::string> compare_whole(const TopoDS_Shape& reread, const TopoD
 
 }  // namespace
 
+TopoDS_Face optical_face_of(const TopoDS_Shape& part, const Profile& profile) {
+  const Handle(Geom_BSplineCurve) expected = occt_cad_curve(profile);
+  const double tolerance_mm = Tolerance::for_scale(profile.diagonal_mm()).exchange_mm;
+  for (const TopoDS_Face& face : faces_of(part))
+    if (const auto surface = revolution_of(face);
+        !surface.IsNull() && !compare_generatrix(surface, expected, tolerance_mm).loss)
+      return face;
+  throw CadError({"the optical surface is not found in the part", "", "no face has the generatrix",
+                  "export the open surface"});
+}
+
 Comparison compare(const TopoDS_Shape& reread, const TopoDS_Shape& written, const Profile& profile,
                    Keeps keeps) {
   return guarded("compare what was written", "", [&] {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <optional>
 #include <string>
@@ -27,5 +28,9 @@ enum class Keeps {
 /// @error lengths within Tolerance::exchange_mm; weights and knots relative 1e-12
 Comparison compare(const TopoDS_Shape& reread, const TopoDS_Shape& written, const Profile& profile,
                    Keeps keeps = Keeps::everything);
+
+/// The face of a part that is the optical surface, by its generatrix as compare() takes it.
+/// @fails CadError when there is none
+TopoDS_Face optical_face_of(const TopoDS_Shape& part, const Profile& profile);
 
 }  // namespace catoptric::cad::detail

@@ -2,6 +2,7 @@
 
 #include <TopoDS_Shape.hxx>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "cad/export.h"
@@ -13,6 +14,7 @@ struct FileLabels {
   std::string file_name;
   std::string product, author, organization;
   std::string time_stamp;  ///< ISO 8601, never empty
+  PartMaterial material = {};
 };
 
 /// Labels from the options, checked.
@@ -26,6 +28,9 @@ const char* unit_name(LengthUnit unit);
 /// @fails CadError when OCCT refuses, IoError when the file cannot be written
 void write_step(const TopoDS_Shape& shape, const std::filesystem::path& path, const FileLabels& labels,
                 LengthUnit unit, StepSchema schema);
+/// STEP of AP242 with what it can say of a part: names of the part and its faces, colours, material.
+void write_step_part(const TopoDS_Shape& shape, const Profile& profile, const std::filesystem::path& path,
+                     const FileLabels& labels, LengthUnit unit);
 void write_iges(const TopoDS_Shape& shape, const std::filesystem::path& path, const FileLabels& labels,
                 LengthUnit unit, IgesMode mode);
 void write_brep(const TopoDS_Shape& shape, const std::filesystem::path& path);
@@ -35,6 +40,10 @@ void write_brep(const TopoDS_Shape& shape, const std::filesystem::path& path);
 TopoDS_Shape read_step(const std::filesystem::path& path);
 TopoDS_Shape read_iges(const std::filesystem::path& path);
 TopoDS_Shape read_brep(const std::filesystem::path& path);
+
+/// What of names, colours and material is missing in a file of write_step_part, in words, or nothing.
+std::optional<std::string> part_loss(const std::filesystem::path& path, const TopoDS_Shape& written,
+                                     const Profile& profile, const FileLabels& labels);
 
 /// Writers of meshes; the shape is meshed within chord_mm.
 /// @out   number of triangles

@@ -56,14 +56,19 @@ FileLabels make_labels(const std::filesystem::path& path, const ExportOptions& o
   check_text("product name", options.product);
   check_text("author", options.author);
   check_text("organization", options.organization);
+  check_text("material", options.material.name);
   if (!options.time_stamp.empty() && !is_time_stamp(options.time_stamp))
     throw InputError({fmt::format("\"{}\" is no time stamp", options.time_stamp), "", "",
                       "write it like 2026-01-31T12:00:00"});
   std::string name = path.filename().string();
   for (char& c : name)
     if (c < ' ' || c > '~') c = '_';
-  return {name, options.product, options.author, options.organization,
-          options.time_stamp.empty() ? default_time_stamp() : options.time_stamp};
+  return {name,
+          options.product,
+          options.author,
+          options.organization,
+          options.time_stamp.empty() ? default_time_stamp() : options.time_stamp,
+          options.material};
 }
 
 const char* unit_name(LengthUnit unit) {

@@ -28,8 +28,6 @@
 namespace catoptric::cad::detail {
 namespace {
 
-constexpr double wall_error_of_part = 1e-9;  // what the header of shape_figures promises
-
 void check_extent(const Profile& profile) {
   const double extent_mm = profile.diagonal_mm();
   if (!(extent_mm >= least_cad_extent_mm && extent_mm <= greatest_cad_extent_mm))
@@ -91,8 +89,7 @@ TopoDS_Shape optical_face(const Profile& profile) {
 
 TopoDS_Shape walled_solid(const Profile& profile, const Wall& wall) {
   check_extent(profile);
-  const double tolerance_mm = std::max(wall_error_of_part * profile.diagonal_mm(), Precision::Confusion());
-  const std::vector<SectionPiece> section = wall_section(profile, wall, tolerance_mm);
+  const std::vector<SectionPiece> section = wall_section(profile, wall, wall_tolerance_mm(profile));
   return guarded("build the walled solid", "", [&] {
     std::vector<TopoDS_Shape> faces{revolved_face(occt_cad_curve(profile))};
     for (const SectionPiece& piece : section)

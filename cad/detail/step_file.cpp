@@ -1,20 +1,28 @@
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <IFSelect_ReturnStatus.hxx>
 #include <Interface_Static.hxx>
+#include <STEPCAFControl_Controller.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <STEPCAFControl_Writer.hxx>
 #include <STEPConstruct_AP203Context.hxx>
 #include <STEPControl_ActorWrite.hxx>
 #include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
 #include <StepBasic_CalendarDate.hxx>
 #include <StepBasic_CoordinatedUniversalTimeOffset.hxx>
+#include <StepBasic_DerivedUnitElement.hxx>
 #include <StepBasic_LocalTime.hxx>
 #include <StepBasic_Organization.hxx>
 #include <StepBasic_Person.hxx>
 #include <StepBasic_PersonAndOrganization.hxx>
 #include <StepBasic_Product.hxx>
+#include <StepBasic_SiUnitAndMassUnit.hxx>
 #include <StepData_Protocol.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepData_StepWriter.hxx>
+#include <StepShape_AdvancedFace.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopAbs_ShapeEnum.hxx>
 #include <XSControl_Controller.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <cstdlib>
@@ -23,6 +31,7 @@
 #include "cad/detail/ascii.h"
 #include "cad/detail/exchange_file.h"
 #include "cad/detail/occt_guard.h"
+#include "cad/detail/part_document.h"
 #include "cad/detail/real_format.h"
 
 namespace catoptric::cad::detail {
@@ -117,6 +126,37 @@ void label_header(const Handle(StepData_StepModel) & model, const FileLabels& la
   header.SetDescriptionValue(1, ascii("mirror of revolution"));
 }
 
+/// All settings, to be made before a writer is: one that was made earlier labels the new unit on old numbers.
+void choose(ExchangeSession& session, const FileLabels& labels, LengthUnit unit, StepSchema schema) {
+  session.set("xstep.cascade.unit", "MM");
+  session.set("write.step.unit", unit_name(unit));
+  session.set("write.step.schema", schema_name(schema));
+  session.set("write.step.product.name", labels.product);
+  session.set("write.surfacecurve.mode", 1);
+  session.set("write.step.assembly", 0);
+  session.set("write.precision.mode", 0);
+}
+
+[[noreturn]] void refuse_transfer(const std::filesystem::path& path) {
+  throw CadError({"the shape does not go into STEP", path.string(), "OpenCASCADE's transfer failed",
+                  "export the open surface"});
+}
+
+/// The open surface's face, which is the part itself and no piece of it to a document.
+void name_faces(const Handle(StepData_StepModel) & model) {
+  for (int i = 1; i <= model->NbEntities(); ++i)
+    if (const auto face = Handle(StepShape_AdvancedFace)::DownCast(model->Value(i)); !face.IsNull())
+      face->SetName(ascii(optical_surface_name));
+}
+
+/// The powers of a density's units, g / cm^3, which OCCT 7.6.3 writes as g^3 cm^2.
+void mend_density_unit(const Handle(StepData_StepModel) & model) {
+  for (int i = 1; i <= model->NbEntities(); ++i)
+    if (const auto element = Handle(StepBasic_DerivedUnitElement)::DownCast(model->Value(i));
+        !element.IsNull())
+      element->SetExponent(element->Unit()->IsKind(STANDARD_TYPE(StepBasic_SiUnitAndMassUnit)) ? 1 : -3);
+}
+
 /// Prints the model itself, since the writer's own file has 12 digits.
 void print(STEPControl_Writer& writer, const Handle(StepData_StepModel) & model,
            const std::filesystem::path& path) {
@@ -130,29 +170,61 @@ void print(STEPControl_Writer& writer, const Handle(StepData_StepModel) & model,
     throw IoError({"cannot write the STEP file", path.string(), "", "check the free space"});
 }
 
+void finish(STEPControl_Writer& writer, const FileLabels& labels, const std::filesystem::path& path) {
+  const Handle(StepData_StepModel) model = writer.Model();
+  label_entities(model, labels);
+  label_header(model, labels);
+  print(writer, model, path);
+}
+
 }  // namespace
 
 void write_step(const TopoDS_Shape& shape, const std::filesystem::path& path, const FileLabels& labels,
                 LengthUnit unit, StepSchema schema) {
   ExchangeSession session;
-  // All settings before the writer is made: one that was made earlier labels the new unit on old numbers.
-  session.set("xstep.cascade.unit", "MM");
-  session.set("write.step.unit", unit_name(unit));
-  session.set("write.step.schema", schema_name(schema));
-  session.set("write.step.product.name", labels.product);
-  session.set("write.surfacecurve.mode", 1);
-  session.set("write.step.assembly", 0);
-  session.set("write.precision.mode", 0);
+  choose(session, labels, unit, schema);
   guarded("write the STEP file", path.string(), [&] {
     STEPControl_Writer writer;
     provide_person(writer);
-    if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone)
-      throw CadError({"the shape does not go into STEP", path.string(), "OpenCASCADE's transfer failed",
-                      "export the open surface"});
-    const Handle(StepData_StepModel) model = writer.Model();
-    label_entities(model, labels);
-    label_header(model, labels);
-    print(writer, model, path);
+    if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone) refuse_transfer(path);
+    finish(writer, labels, path);
+  });
+}
+
+void write_step_part(const TopoDS_Shape& shape, const Profile& profile, const std::filesystem::path& path,
+                     const FileLabels& labels, LengthUnit unit) {
+  ExchangeSession session;
+  STEPCAFControl_Controller::Init();  // makes the setting of names
+  choose(session, labels, unit, StepSchema::ap242);
+  session.set("write.stepcaf.subshapes.name", 1);
+  guarded("write the STEP file", path.string(), [&] {
+    const PartDocument document;
+    put_part(document, shape, profile, labels);
+    STEPCAFControl_Writer writer;
+    provide_person(writer.ChangeWriter());
+    if (!writer.Transfer(document.get(), STEPControl_AsIs)) refuse_transfer(path);
+    if (shape.ShapeType() == TopAbs_FACE) name_faces(writer.ChangeWriter().Model());
+    mend_density_unit(writer.ChangeWriter().Model());
+    finish(writer.ChangeWriter(), labels, path);
+  });
+}
+
+std::optional<std::string> part_loss(const std::filesystem::path& path, const TopoDS_Shape& written,
+                                     const Profile& profile, const FileLabels& labels) {
+  ExchangeSession session;
+  STEPCAFControl_Controller::Init();
+  session.set("xstep.cascade.unit", "MM");
+  session.set("read.stepcaf.subshapes.name", 1);
+  return guarded("read the STEP file", path.string(), [&]() -> std::optional<std::string> {
+    const PartDocument document;
+    STEPCAFControl_Reader reader;
+    reader.SetColorMode(true);
+    reader.SetNameMode(true);
+    reader.SetMatMode(true);
+    Handle(TDocStd_Document) inside = document.get();
+    if (reader.ReadFile(path.c_str()) != IFSelect_RetDone || !reader.Transfer(inside))
+      return "names and colours cannot be read back";
+    return difference(document, written, profile, labels);
   });
 }
 

@@ -14,12 +14,15 @@
 
 #include "base/tolerance.h"
 #include "base/units.h"
+#include "cad/detail/flange.h"
 #include "cad/detail/occt_curve.h"
 #include "cad/detail/occt_guard.h"
 #include "cad/detail/section_check.h"
 
 namespace catoptric::cad::detail {
 namespace {
+
+constexpr double wall_error_of_part = 1e-9;  // what the header of shape_figures promises
 
 /// The generatrix between two kinks, in plain numbers.
 struct SmoothPart {
@@ -78,19 +81,13 @@ std::vector<SmoothPart> split_at_kinks(const Profile& profile) {
   return parts;
 }
 
-SectionPiece line(const Vector2& from, const Vector2& to) {
-  const Handle(Geom_TrimmedCurve) curve = GC_MakeSegment(in_space(from), in_space(to)).Value();
-  return SectionPiece{SectionPiece::Kind::line, Handle(Geom_Curve)(curve), curve->FirstParameter(),
-                      curve->LastParameter()};
-}
-
 /// The arc of radius |from - centre| from `from` to `to` about `centre`, the short way.
 SectionPiece arc(const Vector2& centre, const Vector2& from, const Vector2& to) {
   const Vector2 middle = centre + ((from - centre) + (to - centre)).normalized() * (from - centre).norm();
   const Handle(Geom_TrimmedCurve) curve =
       GC_MakeArcOfCircle(in_space(from), in_space(middle), in_space(to)).Value();
-  return SectionPiece{SectionPiece::Kind::arc, Handle(Geom_Curve)(curve), curve->FirstParameter(),
-                      curve->LastParameter()};
+  return SectionPiece{SectionPiece::Kind::arc, SectionPiece::Part::back, Handle(Geom_Curve)(curve),
+                      curve->FirstParameter(), curve->LastParameter()};
 }
 
 /// The parallel curve of one smooth part as a B-spline whose ends are exactly `from` and `to`.
@@ -106,14 +103,15 @@ SectionPiece parallel(const Handle(Geom_BSplineCurve) & generatrix, const Smooth
   const Handle(Geom_BSplineCurve) curve = approximation.Curve();
   curve->SetPole(1, in_space(from));
   curve->SetPole(curve->NbPoles(), in_space(to));
-  return SectionPiece{SectionPiece::Kind::spline, Handle(Geom_Curve)(curve), curve->FirstParameter(),
-                      curve->LastParameter()};
+  return SectionPiece{SectionPiece::Kind::spline, SectionPiece::Part::back, Handle(Geom_Curve)(curve),
+                      curve->FirstParameter(), curve->LastParameter()};
 }
 
 class SectionBuilder {
  public:
   SectionBuilder(const Profile& profile, const Wall& wall, double tolerance_mm)
       : profile_(profile),
+        wall_(wall),
         offset_mm_(wall.thickness_mm * outer_side(profile) * (wall.side == WallSide::outside ? 1 : -1)),
         tolerance_mm_(tolerance_mm) {}
 
@@ -126,6 +124,12 @@ class SectionBuilder {
       if (i + 1 < parts.size()) add_joint(parts[i].spans.back(), parts[i + 1].spans.front());
     }
     start_end(parts.back().spans.back(), 1);
+    if (wall_.flange) {
+      const RationalSpan& last = parts.back().spans.back();
+      const Vector2 along = tangent(last, 1);
+      add_flange(pieces_, {SmoothPart::point(last, 1), along, std::copysign(1, offset_mm_) * left_of(along)},
+                 wall_.flange->width_mm, wall_.flange->thickness_mm.value_or(wall_.thickness_mm));
+    }
     return std::move(pieces_);
   }
 
@@ -138,7 +142,7 @@ class SectionBuilder {
   void add_part(const Handle(Geom_BSplineCurve) & generatrix, const SmoothPart& part) {
     for (const RationalSpan& span : part.spans) check_span_offset(span, offset_mm_);
     const Vector2 from = outer_point(part.spans.front(), 0), to = outer_point(part.spans.back(), 1);
-    pieces_.push_back(part.is_straight() ? line(from, to)
+    pieces_.push_back(part.is_straight() ? straight_piece(SectionPiece::Part::back, from, to)
                                          : parallel(generatrix, part, offset_mm_, from, to, tolerance_mm_));
   }
 
@@ -160,7 +164,8 @@ class SectionBuilder {
   void start_end(const RationalSpan& span, double s) {
     const Vector2 inner = SmoothPart::point(span, s), outer = outer_point(span, s);
     if (inner.x() > Precision::Confusion()) {
-      pieces_.push_back(s == 0 ? line(inner, outer) : line(outer, inner));
+      pieces_.push_back(
+          straight_piece(SectionPiece::Part::edge, s == 0 ? inner : outer, s == 0 ? outer : inner));
       return;
     }
     if (outer.x() == 0) return;
@@ -175,6 +180,7 @@ class SectionBuilder {
   }
 
   const Profile& profile_;
+  const Wall& wall_;
   double offset_mm_;
   double tolerance_mm_;
   std::vector<SectionPiece> pieces_;
@@ -194,6 +200,18 @@ void check_wall(const Profile& profile, const Wall& wall) {
                     "open the profile, or export the surface without a wall"});
 }
 
+/// A flange stands outside, at the wider end, which is where the generatrix ends.
+void check_flange(const Profile& profile, const Wall& wall) {
+  if (!wall.flange) return;
+  if (wall.side == WallSide::inside)
+    throw CadError({"a wall inside the mirror cannot have a flange", "", "the flange stands outside the rim",
+                    "put the wall outside, or leave the flange out"});
+  if (profile.at(profile.first_parameter()).r_mm >= profile.at(profile.last_parameter()).r_mm)
+    throw CadError({"there is no rim for the flange", "",
+                    "it stands where the generatrix ends, which is not its wider end here",
+                    "list the control points from the apex to the rim, or leave the flange out"});
+}
+
 /// OCCT's parallel curve needs a tangent at every point of the generatrix.
 void check_ends_run(const Profile& profile) {
   for (const RationalSpan& span : profile.spans())
@@ -209,8 +227,19 @@ void check_ends_run(const Profile& profile) {
 
 }  // namespace
 
+SectionPiece straight_piece(SectionPiece::Part part, const Vector2& from, const Vector2& to) {
+  const Handle(Geom_TrimmedCurve) curve = GC_MakeSegment(in_space(from), in_space(to)).Value();
+  return SectionPiece{SectionPiece::Kind::line, part, Handle(Geom_Curve)(curve), curve->FirstParameter(),
+                      curve->LastParameter()};
+}
+
+double wall_tolerance_mm(const Profile& profile) {
+  return std::max(wall_error_of_part * profile.diagonal_mm(), Precision::Confusion());
+}
+
 std::vector<SectionPiece> wall_section(const Profile& profile, const Wall& wall, double tolerance_mm) {
   check_wall(profile, wall);
+  check_flange(profile, wall);
   check_ends_run(profile);
   return guarded("build the wall", "", [&] {
     std::vector<SectionPiece> pieces = SectionBuilder(profile, wall, tolerance_mm).build();

@@ -41,7 +41,7 @@ struct ProfileOptions {
 };
 
 struct ExportCommandOptions {
-  std::vector<std::string> formats;  ///< step, iges, brep, stl, glb; empty: step and iges
+  std::vector<std::string> formats;  ///< step, iges, brep, stl, glb, dxf; empty: step and iges
 };
 
 ExitCode design_command(const CommonOptions& options, const DesignOptions& more);

@@ -16,18 +16,21 @@ struct Format {
   const char* file;
 };
 
-constexpr Format formats[] = {{"step", "reflector.step"},
-                              {"iges", "reflector.igs"},
-                              {"brep", "reflector.brep"},
-                              {"stl", "reflector.stl"},
-                              {"glb", "reflector.glb"}};
+constexpr Format formats[] = {{"step", "reflector.step"}, {"iges", "reflector.igs"},
+                              {"brep", "reflector.brep"}, {"stl", "reflector.stl"},
+                              {"glb", "reflector.glb"},   {"dxf", "reflector.dxf"}};
 
-/// What the reader saw that read the file back.
-std::string description(const cad::ExportReport& report) {
+/// What the reader saw that read the file back; of a drawing and of a mesh the part that it shows.
+std::string description(const cad::ExportReport& report, const cad::PartMaterial& material) {
   std::string text = fmt::format("{} face{}, area {:.6g} mm^2", report.figures.face_count,
                                  report.figures.face_count == 1 ? "" : "s", report.figures.area_mm2);
   if (report.figures.volume_mm3 > 0) text += fmt::format(", volume {:.6g} mm^3", report.figures.volume_mm3);
-  if (report.triangle_count > 0) return text + fmt::format(", {} triangles", report.triangle_count);
+  if (report.figures.volume_mm3 > 0 && material.density_kg_per_m3)
+    text += fmt::format(", mass {:.6g} kg", report.figures.volume_mm3 * 1e-9 * *material.density_kg_per_m3);
+  if (report.triangle_count > 0)
+    return text +
+           fmt::format("; {} triangles, chord error {:.3g} mm", report.triangle_count, report.chord_mm);
+  if (report.chord_mm > 0) text += fmt::format("; polylines, chord error {:.3g} mm", report.chord_mm);
   return text + fmt::format("; read back, largest deviation {:.3g} mm", report.largest_deviation_mm);
 }
 
@@ -44,7 +47,8 @@ ExitCode export_command(const CommonOptions& options, const ExportCommandOptions
   for (const Format& format : formats) {
     if (std::find(wanted.begin(), wanted.end(), format.name) == wanted.end()) continue;
     const cad::ExportReport report = cad::export_reflector(profile, out / format.file, scene.export_options);
-    lines.push_back(fmt::format("{}: {}", (out / format.file).string(), description(report)));
+    lines.push_back(fmt::format("{}: {}", (out / format.file).string(),
+                                description(report, scene.export_options.material)));
   }
   if (!options.quiet)
     for (const std::string& line : lines) fmt::print("{}\n", line);

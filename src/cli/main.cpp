@@ -95,8 +95,8 @@ struct Parser {
     add_common(*written, common, "SCENE.toml");
     written
         ->add_option("--format", shape.formats,
-                     "step, iges, brep, stl, glb; may be repeated; step and iges when left out")
-        ->check(CLI::IsMember({"step", "iges", "brep", "stl", "glb"}))
+                     "step, iges, brep, stl, glb, dxf; may be repeated; step and iges when left out")
+        ->check(CLI::IsMember({"step", "iges", "brep", "stl", "glb", "dxf"}))
         ->allow_extra_args(false)
         ->type_name("FORMAT");
     written->footer(

@@ -8,6 +8,7 @@
 
 #include "base/contract.h"
 #include "base/profile_limits.h"
+#include "cad/opening.h"
 #include "design/variables.h"
 #include "sim/cylinder_source.h"
 #include "sim/disc_source.h"
@@ -175,12 +176,16 @@ std::optional<std::string> value_defect(const Candidate& base, SceneVariable var
   return std::nullopt;
 }
 
-SceneFamily::SceneFamily(Candidate base, const std::vector<std::string>& all, LengthUnit unit)
-    : SceneFamily(base, ProfileFamily(base.profile, shape_names(all), unit), all, unit) {}
+SceneFamily::SceneFamily(Candidate base, const std::vector<std::string>& all, LengthUnit unit,
+                         std::optional<double> opening_mm)
+    : SceneFamily(base, ProfileFamily(base.profile, shape_names(all), unit), all, unit, opening_mm) {}
 
 SceneFamily::SceneFamily(Candidate base, ShapeFamily shape, const std::vector<std::string>& all,
-                         LengthUnit unit)
-    : base_(std::move(base)), shape_(std::move(shape)), unit_mm_(millimetres_per(unit)) {
+                         LengthUnit unit, std::optional<double> opening_mm)
+    : base_(std::move(base)),
+      shape_(std::move(shape)),
+      unit_mm_(millimetres_per(unit)),
+      opening_mm_(opening_mm) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (const auto variable = parse_scene_variable(all[i])) {
       scene_places_.push_back(i);
@@ -192,6 +197,17 @@ SceneFamily::SceneFamily(Candidate base, ShapeFamily shape, const std::vector<st
 }
 
 std::optional<Candidate> SceneFamily::at(std::span<const double> values) const {
+  std::optional<Candidate> candidate = whole_at(values);
+  if (!candidate || !opening_mm_) return candidate;
+  try {
+    candidate->profile = cad::with_opening(candidate->profile, *opening_mm_);
+  } catch (const Error&) {  // of such a shape the opening leaves nothing, or more than one piece
+    return std::nullopt;
+  }
+  return candidate;
+}
+
+std::optional<Candidate> SceneFamily::whole_at(std::span<const double> values) const {
   CATOPTRIC_EXPECTS(values.size() == shape_places_.size() + scene_places_.size());
   std::vector<double> shape;
   for (const std::size_t place : shape_places_) shape.push_back(values[place]);

@@ -94,14 +94,20 @@ using ShapeFamily = std::variant<ProfileFamily, FreeProfile, CurvatureProfile>;
 class SceneFamily {
  public:
   /// @in names of components of the profile or of scene variables, in any order
-  SceneFamily(Candidate base, const std::vector<std::string>& names, LengthUnit unit);
+  /// @in opening_mm  radius of the opening that is cut from every mirror; nothing: none
+  SceneFamily(Candidate base, const std::vector<std::string>& names, LengthUnit unit,
+              std::optional<double> opening_mm = {});
   /// @in shape  whose variables are the names that are no scene variables, in their order
-  SceneFamily(Candidate base, ShapeFamily shape, const std::vector<std::string>& names, LengthUnit unit);
+  SceneFamily(Candidate base, ShapeFamily shape, const std::vector<std::string>& names, LengthUnit unit,
+              std::optional<double> opening_mm = {});
 
   /// The candidate with the variables set, or nothing where these values make none (the generatrix crosses
   /// the axis, no power, ...).
   /// @cost  a profile's; no light
   std::optional<Candidate> at(std::span<const double> values) const;
+
+  /// The same before its opening is cut: what the variables are components of.
+  std::optional<Candidate> whole_at(std::span<const double> values) const;
 
   const Candidate& base() const { return base_; }
   /// Places in the vector of the variables beside the shape.
@@ -113,6 +119,7 @@ class SceneFamily {
   std::vector<std::size_t> shape_places_, scene_places_;
   std::vector<SceneVariable> scene_variables_;
   double unit_mm_;
+  std::optional<double> opening_mm_;
 };
 
 }  // namespace catoptric::design

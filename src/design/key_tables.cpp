@@ -85,8 +85,13 @@ const std::vector<Key>& scene_table() {
       {.path = "reflector.index", .type = number, .least = 1e-3, .greatest = 1e3, .meaning = "refractive index n of a bare metal, whose reflectance by angle is Fresnel's, unpolarised; instead of reflector.reflectance"},
       {.path = "reflector.extinction", .type = number, .least = 0, .greatest = 1e3, .meaning = "its extinction coefficient k"},
       {.path = "reflector.transmittance", .type = number, .least = 0, .greatest = 1, .standard = "0.0", .meaning = "share of the light that passes straight through; the rest is absorbed"},
+      {.path = "reflector.opening", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "radius of a round opening about the axis, for the lamp: of every mirror of the scene only what lies farther out is there, in simulation, search and files alike; variables are still those of the whole mirror"},
       {.path = "reflector.wall", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "wall thickness of the exported solid; left out: the open optical surface"},
       {.path = "reflector.wall_side", .type = choice, .choices = {"outside", "inside"}, .meaning = "side of the optical surface on which the wall stands"},
+      {.path = "reflector.flange", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "width of a flat flange across the axis, outward from the rim of the optical surface; it needs a wall"},
+      {.path = "reflector.flange_thickness", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "its thickness along the axis; the wall's when left out"},
+      {.path = "reflector.material", .type = text, .meaning = "what a walled mirror is made of, in STEP files of AP242"},
+      {.path = "reflector.density", .type = number, .least = 1e-3, .greatest = 1e6, .meaning = "its density, kg/m^3: `export` then states the part's mass"},
 
       {.path = "near_field.shape", .type = choice, .choices = {"disc", "rectangle"}, .standard = "\"disc\"", .meaning = "shape of the surface that is to be lit"},
       {.path = "near_field.center", .type = numbers, .quantity = Q::length, .least = -far, .greatest = far, .count = 3, .standard = "[0.0, 0.0, 0.0]", .meaning = "its centre"},
@@ -251,6 +256,7 @@ const std::vector<Key>& scene_table() {
       {.path = "export.unit", .type = choice, .choices = {"mm", "cm", "m", "in"}, .standard = "\"mm\"", .meaning = "unit of length inside exchange files"},
       {.path = "export.step_schema", .type = choice, .choices = {"ap203", "ap214", "ap242"}, .standard = "\"ap214\"", .meaning = "STEP application protocol"},
       {.path = "export.iges_mode", .type = choice, .choices = {"faces", "brep"}, .standard = "\"faces\"", .meaning = "IGES entities: trimmed surfaces (144) or boundary representation (186)"},
+      {.path = "export.dxf_curves", .type = choice, .choices = {"auto", "splines", "polylines"}, .standard = "\"auto\"", .meaning = "curves of a DXF section: exact splines, or polylines within the chord tolerance; auto: splines, but polylines for a curve with weights, which many readers of DXF ignore"},
   });
   return table;
 }

@@ -82,7 +82,7 @@ RefinedOutcome search_in_stages(const Scene& scene,
   };
   note("", 0);
   for (const std::string& step : scene.search.refine) {
-    const auto best = family_of(found.last).at(found.outcome.best);
+    const auto best = family_of(found.last).whole_at(found.outcome.best);
     if (!best || !may_go_on(found, scene)) break;
     Scene next = next_scene(scene, found.last, refined(best->profile, step), found.outcome);
     const long before = found.outcome.evaluations;

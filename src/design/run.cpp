@@ -79,7 +79,8 @@ Judgement verdict(const Scene& scene, const Target& target, const Candidate& can
 }  // namespace
 
 SceneFamily family_of(const Scene& scene) {
-  return {scene.with(scene.profile), shape_family(scene), names(scene.variables), scene.unit};
+  return {scene.with(scene.profile), shape_family(scene), names(scene.variables), scene.unit,
+          scene.opening_mm};
 }
 
 Profile start_profile(const Scene& scene) { return start_candidate(scene).profile; }
@@ -184,7 +185,8 @@ Landscape run_landscape(const Scene& given, const RunControl& control) {
   if (spec.paths) result.paths = search_paths(scene, target, control);
   // Everything that is not drawn stays at its start.
   const Candidate start = start_candidate(scene);
-  const SceneFamily family(start, spec.variables, scene.unit);
+  const Candidate whole = *family_of(scene).whole_at(starts(scene.variables));
+  const SceneFamily family(whole, spec.variables, scene.unit, scene.opening_mm);
   const sim::Rung rung = rung_for(scene, spec, family, start);
   const std::vector<double> once{0.0};
   const std::vector<double>& second = result.axes.size() > 1 ? result.axes[1] : once;

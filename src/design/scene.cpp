@@ -13,6 +13,7 @@
 #include "design/constraint_settings.h"
 #include "design/design_space.h"
 #include "design/landscape_settings.h"
+#include "design/part_settings.h"
 #include "design/refinement.h"
 #include "design/scene_defaults.h"
 #include "design/source_settings.h"
@@ -251,23 +252,6 @@ TradeoffSpec tradeoff(const Settings& settings) {
           *settings.number("tradeoff.reference_accuracy")};
 }
 
-cad::ExportOptions export_options(const Settings& settings, double unit_mm) {
-  cad::ExportOptions options;
-  options.unit = *parse_length_unit(*settings.text("export.unit"));
-  const std::string schema = *settings.text("export.step_schema");
-  options.schema = schema == "ap203"   ? cad::StepSchema::ap203
-                   : schema == "ap242" ? cad::StepSchema::ap242
-                                       : cad::StepSchema::ap214;
-  options.iges_mode =
-      settings.text("export.iges_mode") == "brep" ? cad::IgesMode::brep : cad::IgesMode::faces;
-  options.product = *settings.text("reflector.name");
-  if (const auto wall = settings.number("reflector.wall")) {
-    options.wall = cad::Wall{*wall * unit_mm, cad::WallSide::outside};
-    if (settings.text("reflector.wall_side") == "inside") options.wall->side = cad::WallSide::inside;
-  }
-  return options;
-}
-
 TailoredSpec tailored(const Settings& settings, double unit_mm) {
   TailoredSpec spec{};
   const std::string map = *settings.text("tailored.map");
@@ -300,6 +284,7 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
   SearchSpec sought = search(settings, unit_mm);
   if (settings.text("start") != "tailored")  // that is for listed variables, and comes first
     set_free(settings, sought, base, decision, unit);
+  const std::optional<double> opened_mm = opening_mm(settings, unit_mm, base);
   std::optional<LandscapeSpec> drawn = landscape_settings(settings, written, decision);
   const Constraints bounds = read_constraints(settings, unit_mm, source.position_mm, field);
   Scene scene{.settings = {},
@@ -310,6 +295,7 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
               .accuracy_rel = settings.number("accuracy"),
               .source = source,
               .profile = std::move(base),
+              .opening_mm = opened_mm,
               .profile_notes = std::move(notes),
               .mirror = mirror,
               .near_field = std::move(field),

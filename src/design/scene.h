@@ -155,6 +155,7 @@ struct Scene {
   std::optional<double> accuracy_rel;  ///< asked of every reported field; nothing: photons as the model says
   SourceSpec source;
   Profile profile;                         ///< as written, before the variables' start values
+  std::optional<double> opening_mm;        ///< radius to be cut from every mirror; Profile has none of it yet
   std::vector<std::string> profile_notes;  ///< where an imported generatrix came from
   sim::Material mirror;
   sim::NearField near_field;

@@ -8,6 +8,7 @@
 #include "base/profile.h"
 #include "base/profile_limits.h"
 #include "cad/profile_import.h"
+#include "design/part_settings.h"
 #include "design/sampling.h"
 #include "design/source_settings.h"
 #include "design/surface_settings.h"
@@ -188,10 +189,7 @@ std::vector<std::string> complete(Settings& settings) {
   std::vector<std::string> notes = resolve_profile_file(settings);
   complete_start(settings);
   complete_spline(settings, "reflector");
-  if (settings.has("reflector.wall"))
-    settings.fill("reflector.wall_side", "\"outside\"");
-  else if (settings.has("reflector.wall_side"))
-    throw settings.error("reflector.wall_side", "stands alone", "there is no wall", "reflector.wall = 1.0");
+  complete_part(settings);
   complete_near_field(settings);
   complete_surfaces(settings);
   complete_reference(settings);
