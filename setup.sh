@@ -12,7 +12,7 @@ build_packages=(
   librandom123-dev libnanoflann-dev libdxflib-dev libboost-dev libkainjow-mustache-dev
   gnuplot-nox
 )
-test_packages=(catch2 freecad-python3 clang-format-14)
+test_packages=(catch2 freecad-python3 clang-format-14 python3-gmsh python3-ezdxf admesh assimp-utils)
 
 usage() {
   sed -n '2,4s/^# \{0,1\}//p' "$0"

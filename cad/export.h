@@ -29,8 +29,9 @@ enum class StepSchema { ap203, ap214, ap242 };
 /// a solid.
 enum class IgesMode { faces, brep };
 
-/// How a DXF holds curves. Weights of a rational spline are ignored by some readers, which then show another
-/// mirror without a word; a polyline is read by all.
+/// How a DXF holds curves. Some readers ignore the weights of a rational spline, and show another mirror, or
+/// leave out splines above degree 3, without a word; a polyline is read by all. Automatic: splines where all
+/// read them.
 enum class DxfCurves { automatic, splines, polylines };
 
 /// What the part is made of.

@@ -48,4 +48,9 @@ inline constexpr double greatest_cad_extent_mm = 1e6;
 ///        side is within 1e-9 of the part, or 1e-7 mm if that is more, of the parallel surface
 ShapeFigures shape_figures(const Profile& profile, const std::optional<Wall>& wall);
 
+/// Refuses a wall or a flange for which there is no room, without building the solid.
+/// @fails CadError as shape_figures
+/// @cost  some ms
+void require_wall(const Profile& profile, const Wall& wall);
+
 }  // namespace catoptric::cad

@@ -71,7 +71,7 @@ void add_flange(std::vector<SectionPiece>& pieces, const Rim& rim, double width_
   if (corner.x() >= edge_mm - least_mm)
     refuse_flange(
         fmt::format("a flange {} mm wide ends within the wall", width_mm),
-        fmt::format("the wall's outer side is {} mm from the rim there", corner.x() - rim.point.x()),
+        fmt::format("the wall's outer side is {:.6g} mm from the rim there", corner.x() - rim.point.x()),
         "make the flange wider");
   const gp_Pnt start = last.curve->Value(last.first);
   if (start.Distance(gp_Pnt(corner.x(), 0., corner.y())) <= Precision::Confusion())

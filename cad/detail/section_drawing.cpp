@@ -17,6 +17,9 @@ namespace {
 
 constexpr double polyline_chord_rel = 1e-6;  // a ten-thousandth of a millimetre in 100: finer than any tool
 
+// LibreCAD 2.2 leaves out splines of higher degree without a word, and the weights of all.
+constexpr int greatest_degree_read_by_all = 3;
+
 std::string layer_of(SectionPiece::Part part) {
   return part == SectionPiece::Part::back ? "BACK" : part == SectionPiece::Part::edge ? "EDGE" : "FLANGE";
 }
@@ -47,8 +50,8 @@ class Draughtsman {
   }
 
   void spline(std::string layer, const Handle(Geom_BSplineCurve) & spline) {
-    const bool exact =
-        curves_ == DxfCurves::splines || (curves_ == DxfCurves::automatic && !spline->IsRational());
+    const bool read_by_all = !spline->IsRational() && spline->Degree() <= greatest_degree_read_by_all;
+    const bool exact = curves_ == DxfCurves::splines || (curves_ == DxfCurves::automatic && read_by_all);
     DrawnCurve curve{exact ? DrawnCurve::Kind::spline : DrawnCurve::Kind::polyline, std::move(layer), {}};
     if (spline->Degree() == 1) curve.kind = DrawnCurve::Kind::polyline;  // exactly
     if (exact || spline->Degree() == 1) {
@@ -82,7 +85,7 @@ class Draughtsman {
       const GCPnts_UniformDeflection steps(span, chord_mm_, true);
       if (!steps.IsDone())
         throw CadError({"the generatrix does not become a polyline", "", "OpenCASCADE finds no points on it",
-                        "export.dxf_curves = \"splines\""});
+                        "write splines instead"});
       for (int j = 2; j <= steps.NbPoints(); ++j) points.push_back(at(spline->Value(steps.Parameter(j))));
     }
     return points;

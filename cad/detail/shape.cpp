@@ -129,4 +129,8 @@ ShapeFigures shape_figures(const Profile& profile, const std::optional<Wall>& wa
   return detail::measure(detail::make_shape(profile, wall));
 }
 
+void require_wall(const Profile& profile, const Wall& wall) {
+  detail::wall_section(profile, wall, detail::wall_tolerance_mm(profile));
+}
+
 }  // namespace catoptric::cad

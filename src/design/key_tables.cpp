@@ -256,7 +256,7 @@ const std::vector<Key>& scene_table() {
       {.path = "export.unit", .type = choice, .choices = {"mm", "cm", "m", "in"}, .standard = "\"mm\"", .meaning = "unit of length inside exchange files"},
       {.path = "export.step_schema", .type = choice, .choices = {"ap203", "ap214", "ap242"}, .standard = "\"ap214\"", .meaning = "STEP application protocol"},
       {.path = "export.iges_mode", .type = choice, .choices = {"faces", "brep"}, .standard = "\"faces\"", .meaning = "IGES entities: trimmed surfaces (144) or boundary representation (186)"},
-      {.path = "export.dxf_curves", .type = choice, .choices = {"auto", "splines", "polylines"}, .standard = "\"auto\"", .meaning = "curves of a DXF section: exact splines, or polylines within the chord tolerance; auto: splines, but polylines for a curve with weights, which many readers of DXF ignore"},
+      {.path = "export.dxf_curves", .type = choice, .choices = {"auto", "splines", "polylines"}, .standard = "\"auto\"", .meaning = "curves of a DXF section: exact splines, or polylines within the chord tolerance; auto: splines without weights up to degree 3, which all readers of DXF read right, else polylines"},
   });
   return table;
 }

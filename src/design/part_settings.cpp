@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "cad/opening.h"
+#include "cad/shape.h"
 
 namespace catoptric::design {
 namespace {
@@ -92,6 +93,22 @@ cad::ExportOptions export_options(const Settings& settings, double unit_mm) {
                              flange(settings, unit_mm)};
   }
   return options;
+}
+
+void check_flange(const Settings& settings, const cad::ExportOptions& options, const Profile& profile) {
+  if (!options.wall || !options.wall->flange) return;
+  cad::Wall bare = *options.wall;
+  bare.flange.reset();
+  try {
+    cad::require_wall(profile, bare);
+  } catch (const CadError&) {
+    return;  // the wall's own trouble, of which files tell when they are written
+  }
+  try {
+    cad::require_wall(profile, *options.wall);
+  } catch (const CadError& error) {
+    throw settings.error("reflector.flange", error.parts().what, error.parts().why, error.parts().hint);
+  }
 }
 
 }  // namespace catoptric::design

@@ -20,4 +20,10 @@ std::optional<double> opening_mm(const Settings& settings, double unit_mm, const
 /// What exchange files are to hold, of complete settings.
 cad::ExportOptions export_options(const Settings& settings, double unit_mm);
 
+/// Refuses a flange for which the mirror has no place, where there is one for its wall.
+/// @in    profile  the mirror as it is exported, its opening cut
+/// @fails InputError
+/// @cost  some ms where there is a flange
+void check_flange(const Settings& settings, const cad::ExportOptions& options, const Profile& profile);
+
 }  // namespace catoptric::design

@@ -15,6 +15,7 @@
 #include "design/landscape_settings.h"
 #include "design/part_settings.h"
 #include "design/refinement.h"
+#include "design/run.h"
 #include "design/scene_defaults.h"
 #include "design/source_settings.h"
 #include "design/surface_settings.h"
@@ -322,6 +323,9 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
                        settings.text("rays.of") == "luminaire"},
               .export_options = export_options(settings, unit_mm)};
   scene.settings = std::move(settings);
+  if (scene.settings.has("reflector.flange") && scene.settings.text("start") != "tailored")
+    if (const auto start = family_of(scene).at(starts(scene.variables)))
+      check_flange(scene.settings, scene.export_options, start->profile);
   return scene;
 }
 

@@ -30,6 +30,7 @@ WrittenFiles write_design(const design::Scene& scene, const design::DesignResult
   folder.text("designed.toml", design::designed_text(scene, result.best));
   folder.exchange("reflector.step", result.best.profile, scene.export_options);
   folder.exchange("reflector.igs", result.best.profile, scene.export_options);
+  folder.exchange("reflector.dxf", result.best.profile, scene.export_options);
   const auto figures = folder.draw_all(design_figures(scene, result));
   folder.text("report.html", design_page(scene, result, figures));
   return folder.take();

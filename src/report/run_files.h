@@ -20,8 +20,8 @@ struct WrittenFiles {
 std::uint64_t room_for(const design::Scene& scene);
 
 /// `result.json`, `designed.toml` (the scene with the mirror found), `irradiance.csv`, `convergence.csv`,
-/// `reflector.step`, `reflector.igs`, `scene.toml`, `report.html` and the plots. Each file is written whole
-/// or not at all.
+/// `reflector.step`, `reflector.igs`, `reflector.dxf`, `scene.toml`, `report.html` and the plots. Each file
+/// is written whole or not at all.
 /// @fails CadError when an exchange file lost something, IoError
 WrittenFiles write_design(const design::Scene& scene, const design::DesignResult& result,
                           const std::filesystem::path& folder);

@@ -14,8 +14,8 @@ TEST_CASE("design writes the whole set of files, and the result says what other 
   const Ended ended = program_run("design '" + paper + "start_a.toml' --out '" + out + "'" + small);
   INFO(ended.output);
   REQUIRE(ended.code == 0);
-  for (const char* name : {"result.json", "reflector.step", "reflector.igs", "irradiance.csv",
-                           "convergence.csv", "report.html", "scene.toml"}) {
+  for (const char* name : {"result.json", "reflector.step", "reflector.igs", "reflector.dxf",
+                           "irradiance.csv", "convergence.csv", "report.html", "scene.toml"}) {
     INFO(name);
     CHECK(std::filesystem::file_size(folder / "a" / name) > 100);
   }

@@ -92,10 +92,11 @@ TEST_CASE("simulate, landscape, export and study leave what they promise") {
   CHECK_THAT(read_whole(folder / "p" / "figures" / "contours.gp"), Contains("'A: (1.6, 9) to ("));
 
   run("export '" + paper +
-          "paraboloid.toml' --format step --format stl --format glb --format brep --format iges",
+          "paraboloid.toml' --format step --format stl --format glb --format brep --format iges "
+          "--format dxf",
       "e");
-  for (const char* name :
-       {"reflector.step", "reflector.igs", "reflector.stl", "reflector.glb", "reflector.brep"})
+  for (const char* name : {"reflector.step", "reflector.igs", "reflector.stl", "reflector.glb",
+                           "reflector.brep", "reflector.dxf"})
     CHECK(std::filesystem::exists(folder / "e" / name));
 
   write_whole(folder / "study.toml",

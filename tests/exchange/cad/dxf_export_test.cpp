@@ -93,9 +93,9 @@ TEST_CASE("DXF: the section of the paraboloid bit for bit on its layers") {
     CHECK(optical[0].reals(10)[i] == cut.points()[i].r_mm);
     CHECK(optical[0].reals(20)[i] == cut.points()[i].z_mm);
   }
-  CHECK(file.on("BACK").size() == 1);
-  CHECK(file.on("BACK")[0].kind == "SPLINE");
-  CHECK(file.on("EDGE").size() == 1);  // of the opening: the rim has its flange
+  REQUIRE(file.on("BACK").size() == 1);
+  CHECK(file.on("BACK")[0].kind == "LWPOLYLINE");  // of degree 8 it would be, which not all read
+  CHECK(file.on("EDGE").size() == 1);              // of the opening: the rim has its flange
   CHECK(file.on("FLANGE").size() == 3);
   REQUIRE(file.on("AXIS").size() == 1);
   CHECK(file.on("AXIS")[0].reals(10) == std::vector<double>{0});
@@ -109,6 +109,16 @@ TEST_CASE("DXF: the outline closes, the back lies a wall away, the flange is whe
   const DxfText file = written(cad::with_opening(test::paraboloid(), 10), options);
   const Entity back = file.on("BACK")[0];
   const std::vector<double> r = back.reals(10), z = back.reals(20);
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    // The foot on the parabola by Newton: the wall is as thick everywhere.
+    double foot = r[i];
+    for (int step = 0; step < 30; ++step) {
+      const double drop = mirror.height(foot) - z[i];
+      foot -= (foot - r[i] - drop * foot / 100) / (1 + foot * foot / 1e4 - drop / 100);
+    }
+    CHECK(std::hypot(foot - r[i], mirror.height(foot) - z[i]) ==
+          Approx(1).margin(3e-7));  // the back's own error
+  }
   CHECK(r.front() == Approx(mirror.back_r(10)).margin(1e-12));
   CHECK(z.front() == Approx(mirror.back_z(10)).margin(1e-12));
   CHECK(z.back() == Approx(52).margin(1e-12));

@@ -7,6 +7,8 @@
 
 #include "base/units.h"
 #include "cad/export.h"
+#include "cad/opening.h"
+#include "support/cad/lamp_mirror.h"
 #include "support/cad/sample_profiles.h"
 #include "support/temporary_folder.h"
 
@@ -18,30 +20,10 @@ using test::TemporaryFolder;
 
 namespace {
 
-/// What FreeCAD says of one file, by key; empty when it said nothing.
-std::map<std::string, std::string> freecad_says(const TemporaryFolder& folder,
-                                                const std::filesystem::path& file) {
+/// What a script for FreeCAD says, by key; empty when it said nothing. It says by `say(key, value)`.
+std::map<std::string, std::string> freecad_says(const TemporaryFolder& folder, const std::string& text) {
   const auto script = folder / "ask.py";
-  test::write_whole(script, R"(import Part
-s = Part.read(')" + file.string() +
-                                R"(')
-b = s.BoundBox
-def say(key, value):
-    print('SAYS', key, value)
-say('type', s.ShapeType)
-say('valid', s.isValid())
-say('area', repr(s.Area))
-say('volume', repr(s.Volume))
-say('box', ' '.join(repr(v) for v in (b.XMin, b.XMax, b.YMin, b.YMax, b.ZMin, b.ZMax)))
-say('faces', len(s.Faces))
-say('revolutions', sum(f.Surface.TypeId == 'Part::GeomSurfaceOfRevolution' for f in s.Faces))
-for f in s.Faces:
-    if f.Surface.TypeId == 'Part::GeomSurfaceOfRevolution' and len(s.Faces) == 1:
-        c = f.Surface.BasisCurve
-        say('poles', ' '.join(repr(v) for p in c.getPoles() for v in (p.x, p.y, p.z)))
-        say('weights', ' '.join(repr(v) for v in c.getWeights()))
-        say('degree', c.Degree)
-)");
+  test::write_whole(script, "def say(key, value):\n    print('\\nSAYS', key, value)\n" + text);
   const std::string command = "HOME='" + folder.path().string() +
                               "' QT_QPA_PLATFORM=offscreen LC_ALL=C timeout 120 freecadcmd '" +
                               script.string() + "' 2>&1 < /dev/null";
@@ -58,6 +40,29 @@ for f in s.Faces:
   }
   ::pclose(pipe);
   return says;
+}
+
+/// What FreeCAD says of one file.
+std::map<std::string, std::string> freecad_says_of(const TemporaryFolder& folder,
+                                                   const std::filesystem::path& file) {
+  return freecad_says(folder, R"(import Part
+s = Part.read(')" + file.string() +
+                                  R"(')
+b = s.BoundBox
+say('type', s.ShapeType)
+say('valid', s.isValid())
+say('area', repr(s.Area))
+say('volume', repr(s.Volume))
+say('box', ' '.join(repr(v) for v in (b.XMin, b.XMax, b.YMin, b.YMax, b.ZMin, b.ZMax)))
+say('faces', len(s.Faces))
+say('revolutions', sum(f.Surface.TypeId == 'Part::GeomSurfaceOfRevolution' for f in s.Faces))
+for f in s.Faces:
+    if f.Surface.TypeId == 'Part::GeomSurfaceOfRevolution' and len(s.Faces) == 1:
+        c = f.Surface.BasisCurve
+        say('poles', ' '.join(repr(v) for p in c.getPoles() for v in (p.x, p.y, p.z)))
+        say('weights', ' '.join(repr(v) for v in c.getWeights()))
+        say('degree', c.Degree)
+)");
 }
 
 bool has_freecad() {
@@ -96,7 +101,7 @@ TEST_CASE("FreeCAD opens the paraboloid: one surface of revolution, its area, it
       cad::ExportOptions options;
       options.unit = unit;
       cad::export_reflector(test::paraboloid(), folder / name, options);
-      auto says = freecad_says(folder, folder / name);
+      auto says = freecad_says_of(folder, folder / name);
       CAPTURE(name, std::string(symbol(unit)));
       CHECK(says["valid"] == "True");
       CHECK(says["faces"] == "1");
@@ -116,7 +121,7 @@ TEST_CASE("FreeCAD has the weights of a rational mirror") {
   const TemporaryFolder folder;
   const Profile profile = test::wavy_profile(3, true);
   cad::export_reflector(profile, folder / "mirror.step");
-  auto says = freecad_says(folder, folder / "mirror.step");
+  auto says = freecad_says_of(folder, folder / "mirror.step");
   const auto weights = numbers(says["weights"]);
   REQUIRE(weights.size() == profile.points().size());
   for (std::size_t i = 0; i < weights.size(); ++i) CHECK(weights[i] == profile.points()[i].weight);
@@ -130,7 +135,7 @@ TEST_CASE("FreeCAD opens the walled mirror as a solid of the right volume") {
   options.iges_mode = cad::IgesMode::brep;
   for (const char* name : {"mirror.step", "mirror.igs"}) {
     cad::export_reflector(test::hemisphere(50), folder / name, options);
-    auto says = freecad_says(folder, folder / name);
+    auto says = freecad_says_of(folder, folder / name);
     CAPTURE(name);
     CHECK(says["type"] == "Solid");
     CHECK(says["valid"] == "True");
@@ -140,4 +145,57 @@ TEST_CASE("FreeCAD opens the walled mirror as a solid of the right volume") {
           Approx(2 * pi / 3 * (52. * 52 * 52 - 50. * 50 * 50)).epsilon(1e-6));
     check_box(says["box"], {-52, 52, -52, 52, 0, 52});
   }
+}
+
+TEST_CASE(
+    "FreeCAD has the lamp mirror by its name, as a solid of the right volume, and its section from DXF") {
+  if (!has_freecad()) return;
+  const TemporaryFolder folder;
+  const test::LampMirror mirror;
+  cad::ExportOptions options;
+  options.schema = cad::StepSchema::ap242;
+  options.wall = mirror.wall();
+  options.product = "Lamp mirror";
+  const Profile profile = cad::with_opening(test::paraboloid(), mirror.opening_mm);
+  cad::export_reflector(profile, folder / "mirror.step", options);
+  cad::export_reflector(profile, folder / "mirror.dxf", options);
+  options.wall = {};
+  options.dxf_curves = cad::DxfCurves::splines;
+  cad::export_reflector(test::hemisphere(50), folder / "rational.dxf", options);
+  auto says = freecad_says(folder, "folder = '" + folder.path().string() + R"(/'
+import FreeCAD, Part, Import
+document = FreeCAD.newDocument()
+Import.insert(folder + 'mirror.step', document.Name)
+for o in document.Objects:
+    say('label', o.Label)
+    say('type', o.Shape.ShapeType)
+    say('valid', o.Shape.isValid())
+    say('volume', repr(o.Shape.Volume))
+    say('area', repr(o.Shape.Area))
+    b = o.Shape.BoundBox
+    say('box', ' '.join(repr(v) for v in (b.XMin, b.XMax, b.YMin, b.YMax, b.ZMin, b.ZMax)))
+for name in ('mirror', 'rational'):
+    document = FreeCAD.newDocument()
+    Import.readDXF(folder + name + '.dxf', document.Name)
+    curves = [e.Curve for o in document.Objects for e in o.Shape.Edges]
+    splines = [c for c in curves if c.TypeId == 'Part::GeomBSplineCurve']
+    say(name + '_splines', len(splines))
+    say(name + '_poles', ' '.join(repr(v) for p in splines[0].getPoles() for v in (p.x, p.y, p.z)))
+    say(name + '_weights', ' '.join(repr(v) for v in splines[0].getWeights()))
+)");
+  CHECK(says["label"] == "Lamp mirror");
+  CHECK(says["type"] == "Solid");
+  CHECK(says["valid"] == "True");
+  // FreeCAD integrates without an error bound; on this solid it is good to 1e-8.
+  CHECK(std::atof(says["volume"].c_str()) == Approx(mirror.volume_mm3()).epsilon(1e-7));
+  CHECK(std::atof(says["area"].c_str()) == Approx(mirror.area_mm2()).epsilon(1e-7));
+  check_box(says["box"], {-108, 108, -108, 108, 50, mirror.back_z(10)});
+  CHECK(says["mirror_splines"] == "1");  // the optical surface; the back is a polyline
+  const auto poles = numbers(says["mirror_poles"]);
+  REQUIRE(poles.size() == 9);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(poles[3 * i] == profile.points()[i].r_mm);
+    CHECK(poles[3 * i + 1] == profile.points()[i].z_mm);
+  }
+  CHECK(numbers(says["rational_weights"]) == std::vector<double>{1, std::sqrt(0.5), 1});
 }

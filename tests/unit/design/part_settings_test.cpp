@@ -57,6 +57,8 @@ TEST_CASE("keys of the part that say nothing by themselves are refused with thei
   refused("material = \"Steel\"", "reflector.material", "stands alone");
   refused("wall = 1\ndensity = 2700", "reflector.density", "stands alone");
   refused("wall = 1\nwall_side = \"inside\"\nflange = 5", "reflector.flange", "no place");
+  refused("wall = 1\nflange = 0.3", "reflector.flange", "within the wall");
+  refused("wall = 1\nflange = 8\nflange_thickness = 60", "reflector.flange", "does not fit");
   refused("opening = 100", "reflector.opening", "cannot be cut");
   refused("opening = 0", "reflector.opening", "0");
   refused("opening = 10", "reflector.opening", "Levenberg", "[search]\nmethod = \"levenberg-marquardt\"");
@@ -72,11 +74,11 @@ TEST_CASE("an opening is cut from every mirror of the scene, and variables stay 
   const Scene whole = scene("", variables), opened = scene("opening = 10", variables);
   CHECK(start_profile(opened) == cad::with_opening(start_profile(whole), 10));
   const SceneFamily family = family_of(opened);
-  const std::vector<double> values{80, 2};
+  const std::vector<double> values{2, 80};  // w1, r2
   REQUIRE(family.at(values));
   CHECK(family.at(values)->profile == cad::with_opening(family_of(whole).at(values)->profile, 10));
   CHECK(family.whole_at(values)->profile == family_of(whole).at(values)->profile);
-  CHECK(!family.at(std::vector<double>{9, 1}));  // a mirror that lies within its opening is none
+  CHECK(!family.at(std::vector<double>{1, 9}));  // a mirror that lies within its opening is none
 }
 
 TEST_CASE("a designed mirror with an opening is read back with the same opening") {
@@ -96,6 +98,7 @@ TEST_CASE("no light comes back from an opening, and the rest of the field stays:
     const Evaluation before = evaluate_by_rung(whole, rung, start_profile(whole), samples, 1);
     const Evaluation after = evaluate_by_rung(opened, rung, start_profile(opened), samples, 1);
     // 100,000 photons over a beam of 100 mm, a kernel of 2 mm: 40 in it, which is 16 % of noise at one sigma.
+    // Tubes are asked for 2.5e-7 of the field.
     const double noise = rung == sim::Rung::tubes ? 1e-6 : 1;
     int inside = 0, outside = 0;
     double mean_before = 0, mean_after = 0;
@@ -115,6 +118,6 @@ TEST_CASE("no light comes back from an opening, and the rest of the field stays:
     }
     CHECK(inside > 10);
     CHECK(outside > 100);
-    CHECK(mean_after == Approx(mean_before).epsilon(rung == sim::Rung::tubes ? 1e-9 : 0.02));
+    CHECK(mean_after == Approx(mean_before).epsilon(rung == sim::Rung::tubes ? 1e-6 : 0.02));
   }
 }
