@@ -19,7 +19,9 @@ struct CommonOptions {
   std::optional<int> threads;
   std::optional<std::int64_t> seed;
   bool quiet = false;
+  bool json = false;  ///< JSON lines instead of words
 
+  bool tells_people() const { return !quiet && !json; }
   /// --set, --seed and --threads as overrides of the scene.  @fails UsageError for a --set without "="
   std::vector<design::Override> overrides() const;
   std::filesystem::path out_folder() const;
@@ -44,6 +46,14 @@ struct ExportCommandOptions {
   std::vector<std::string> formats;  ///< step, iges, brep, stl, glb, dxf; empty: step and iges
 };
 
+struct CompletionOptions {
+  std::string shell;  ///< bash, zsh, fish
+};
+
+struct ManualOptions {
+  bool scene = false;  ///< the page of scene files
+};
+
 ExitCode design_command(const CommonOptions& options, const DesignOptions& more);
 ExitCode simulate_command(const CommonOptions& options);
 ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions& more);
@@ -55,5 +65,7 @@ ExitCode rays_command(const CommonOptions& options);
 ExitCode study_command(const CommonOptions& options);
 ExitCode profile_command(const CommonOptions& options, const ProfileOptions& more);
 ExitCode export_command(const CommonOptions& options, const ExportCommandOptions& more);
+ExitCode completion_command(const CompletionOptions& options);
+ExitCode manual_command(const ManualOptions& options);
 
 }  // namespace catoptric::cli

@@ -80,7 +80,7 @@ ExitCode design_command(const CommonOptions& options, const DesignOptions& more)
   run.line.show({"write", 1.0, std::numeric_limits<double>::quiet_NaN(), 0});
   const auto files = report::write_design(run.scene, result, run.out);
   run.line.finish();
-  if (!options.quiet) {
+  if (options.tells_people()) {
     fmt::print("{}\n{}", result.search.sentence,
                report::text_table(report::summary_table(run.scene, result)));
     print_field(run.scene, result.best.judgement);
@@ -88,15 +88,15 @@ ExitCode design_command(const CommonOptions& options, const DesignOptions& more)
     print_accuracy(result.best.judgement);
     fmt::print("{} evaluations in {:.3g} s, {} photons, {:.3g} s in all\n", result.search.evaluations,
                result.search_seconds, result.photons, result.seconds);
-    run.print_files(files);
   }
+  run.tell_files(files);
   ExitCode code = with_accuracy(exit_code(result), result.best.judgement);
   if (code == ExitCode::done && control.stopped()) code = ExitCode::interrupted;  // in the verdict
   if (code == ExitCode::done) {
     search.file.remove();
   } else {
     search.file.write(search.tape);
-    if (!options.quiet) fmt::print("{}\n", how_to_go_on(options, code));
+    if (options.tells_people()) fmt::print("{}\n", how_to_go_on(options, code));
   }
   return code;
 }
@@ -106,14 +106,14 @@ ExitCode simulate_command(const CommonOptions& options) {
   const design::SimulationResult result = design::run_simulation(run.scene, run.control);
   const auto files = report::write_simulation(run.scene, result, run.out);
   run.line.finish();
-  if (!options.quiet) {
+  if (options.tells_people()) {
     fmt::print("{}", report::text_table(report::simulation_table(run.scene, result)));
     print_field(run.scene, result.mirror.judgement);
     print_constraints(run.scene, result.mirror);
     print_accuracy(result.mirror.judgement);
     fmt::print("{} photons, {:.3g} s\n", result.photons, result.seconds);
-    run.print_files(files);
   }
+  run.tell_files(files);
   return with_accuracy(ExitCode::done, result.mirror.judgement);
 }
 

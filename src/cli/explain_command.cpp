@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands.h"
+#include "cli/json_lines.h"
 #include "design/evaluator.h"
 #include "design/memory_need.h"
 #include "design/run.h"
@@ -21,6 +22,11 @@ ExitCode explain_command(const CommonOptions& options) {
   const design::Scene scene = design::read_scene(options.input, options.overrides());
   const design::Candidate start = design::start_candidate(scene);
   const sim::Plan shown = design::simulation_plan(scene, start);
+  if (options.json) {
+    json_plan("simulate", shown);
+    if (!scene.variables.empty()) json_plan("search", design::make_plan(scene, design::family_of(scene)));
+    return ExitCode::done;
+  }
   print_plan("simulate computes the light so:", shown);
   if (scene.accuracy_rel)
     fmt::print("  {:<22}  photons and bandwidth are found until the relative error is at most {:g} (95 %)\n",

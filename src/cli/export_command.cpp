@@ -5,6 +5,7 @@
 #include "base/atomic_file.h"
 #include "cad/export.h"
 #include "cli/commands.h"
+#include "cli/json_lines.h"
 #include "design/run.h"
 #include "report/run_files.h"
 
@@ -44,13 +45,16 @@ ExitCode export_command(const CommonOptions& options, const ExportCommandOptions
   std::vector<std::string> wanted = more.formats;
   if (wanted.empty()) wanted = {"step", "iges"};
   std::vector<std::string> lines;
+  report::WrittenFiles files;
   for (const Format& format : formats) {
     if (std::find(wanted.begin(), wanted.end(), format.name) == wanted.end()) continue;
     const cad::ExportReport report = cad::export_reflector(profile, out / format.file, scene.export_options);
     lines.push_back(fmt::format("{}: {}", (out / format.file).string(),
                                 description(report, scene.export_options.material)));
+    files.names.emplace_back(format.file);
   }
-  if (!options.quiet)
+  if (options.json) json_written(files, out);
+  if (options.tells_people())
     for (const std::string& line : lines) fmt::print("{}\n", line);
   return ExitCode::done;
 }

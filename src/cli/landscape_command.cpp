@@ -23,6 +23,20 @@ design::SearchPath read_path(const std::filesystem::path& file, const std::vecto
   return path;
 }
 
+void print_result(const design::Scene& scene, const design::Landscape& result) {
+  const auto best =
+      std::min_element(result.objective.begin(), result.objective.end(),
+                       [](double a, double b) { return !std::isnan(a) && (std::isnan(b) || a < b); });
+  const std::size_t at = static_cast<std::size_t>(best - result.objective.begin());
+  const std::size_t columns = result.axes.size() > 1 ? result.axes[1].size() : 1;
+  fmt::print("{} points, {:.1f} s; least {} {:.6g} at {} = {:.6g}", result.objective.size(), result.seconds,
+             name(scene.search.metric), *best, result.names[0], result.axes[0][at / columns]);
+  if (result.axes.size() > 1) fmt::print(", {} = {:.6g}", result.names[1], result.axes[1][at % columns]);
+  fmt::print("\n");
+  for (const design::SearchPath& path : result.paths)
+    if (!path.ending.empty()) fmt::print("{}\n", path.ending);
+}
+
 }  // namespace
 
 ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions& more) {
@@ -35,19 +49,8 @@ ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions&
   std::move(read.begin(), read.end(), std::back_inserter(result.paths));
   const auto files = report::write_landscape(scene, result, run.out);
   run.line.finish();
-  if (options.quiet) return ExitCode::done;
-  const auto best =
-      std::min_element(result.objective.begin(), result.objective.end(),
-                       [](double a, double b) { return !std::isnan(a) && (std::isnan(b) || a < b); });
-  const std::size_t at = static_cast<std::size_t>(best - result.objective.begin());
-  const std::size_t columns = result.axes.size() > 1 ? result.axes[1].size() : 1;
-  fmt::print("{} points, {:.1f} s; least {} {:.6g} at {} = {:.6g}", result.objective.size(), result.seconds,
-             name(scene.search.metric), *best, result.names[0], result.axes[0][at / columns]);
-  if (result.axes.size() > 1) fmt::print(", {} = {:.6g}", result.names[1], result.axes[1][at % columns]);
-  fmt::print("\n");
-  for (const design::SearchPath& path : result.paths)
-    if (!path.ending.empty()) fmt::print("{}\n", path.ending);
-  run.print_files(files);
+  if (options.tells_people()) print_result(scene, result);
+  run.tell_files(files);
   return ExitCode::done;
 }
 

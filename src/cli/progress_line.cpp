@@ -1,16 +1,17 @@
 #include "cli/progress_line.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "cli/terminal.h"
+
 namespace catoptric::cli {
 
-ProgressLine::ProgressLine(bool silent, std::string unit)
-    : silent_(silent), terminal_(::isatty(STDERR_FILENO) == 1), unit_(std::move(unit)) {}
+ProgressLine::ProgressLine(Watcher watcher, std::string unit)
+    : watcher_(watcher), terminal_(is_terminal(stderr)), unit_(std::move(unit)) {}
 
 ProgressLine::~ProgressLine() { finish(); }
 
@@ -21,40 +22,76 @@ void ProgressLine::finish() {
   drawn_width_ = 0;
 }
 
+bool ProgressLine::is_due(const std::string& phase) {
+  using namespace std::chrono_literals;
+  const auto now = Clock::now();
+  if (phase != phase_) {
+    phase_ = phase;
+    phase_begin_ = now;
+  } else if (now - last_shown_ < (watcher_ == Watcher::program ? 500ms : terminal_ ? 100ms : 10s)) {
+    return false;
+  }
+  last_shown_ = now;
+  return true;
+}
+
+Pace ProgressLine::pace(const design::Progress& progress) const {
+  const double passed_s = std::chrono::duration<double>(Clock::now() - phase_begin_).count();
+  Pace pace;
+  constexpr double least_s = 0.05;  // before that a rate means nothing
+  if (progress.evaluations > 0 && passed_s > least_s)
+    pace.evaluations_per_s = static_cast<double>(progress.evaluations) / passed_s;
+  constexpr double least_share = 0.02;  // nor does a guess of the end
+  if (progress.share > least_share && progress.share < 1)
+    pace.seconds_left = passed_s * (1 - progress.share) / progress.share;
+  return pace;
+}
+
+std::string ProgressLine::phase_text(const design::Progress& progress) const {
+  return prefix_.empty() ? progress.phase : prefix_ + ", " + progress.phase;
+}
+
 std::string ProgressLine::text(const design::Progress& progress) const {
-  std::string line = prefix_.empty() ? progress.phase : prefix_ + ", " + progress.phase;
+  const Pace pace = this->pace(progress);
+  std::string line = phase_text(progress);
+  if (progress.iterations > 0) line += fmt::format("  iteration {}", progress.iterations);
   if (!std::isnan(progress.best)) line += fmt::format("  best {:.4g} {}", progress.best, unit_);
   if (progress.evaluations > 0) line += fmt::format("  {} evaluations", progress.evaluations);
+  if (pace.evaluations_per_s > 0) line += fmt::format("  {:.3g}/s", pace.evaluations_per_s);
   if (!progress.note.empty()) line += "  " + progress.note;
-  const double passed = std::chrono::duration<double>(Clock::now() - phase_begin_).count();
-  if (progress.share > 0.02 && progress.share < 1)  // before that a guess of the end means nothing
-    line += fmt::format("  about {:.0f} s left", passed * (1 - progress.share) / progress.share);
+  if (pace.seconds_left >= 0) line += fmt::format("  about {:.0f} s left", pace.seconds_left);
   return line;
 }
 
 void ProgressLine::show(const design::Progress& progress) {
-  if (silent_) return;
-  using namespace std::chrono_literals;
-  const bool new_phase = progress.phase != phase_;
-  if (new_phase) {
-    phase_ = progress.phase;
-    phase_begin_ = Clock::now();
-  }
-  if (!new_phase && Clock::now() - last_shown_ < (terminal_ ? 100ms : 10s)) return;
-  last_shown_ = Clock::now();
-  if (!terminal_) {
+  if (watcher_ == Watcher::nobody || !is_due(progress.phase)) return;
+  if (watcher_ == Watcher::program)
+    json_progress(phase_text(progress), progress, pace(progress), unit_);
+  else if (terminal_)
+    draw_bar(progress);
+  else
     fmt::print(stderr, "{:3.0f} %  {}\n", 100 * progress.share, text(progress));
-    return;
-  }
+}
+
+void ProgressLine::draw_bar(const design::Progress& progress) {
   constexpr int width = 24;
-  const int full = static_cast<int>(std::lround(progress.share * width));
-  const std::string line = fmt::format(
-      "[{}{}] {:3.0f} %  {}", std::string(static_cast<std::size_t>(full), '#'),
-      std::string(static_cast<std::size_t>(width - full), '.'), 100 * progress.share, text(progress));
-  const std::size_t blank = drawn_width_ > line.size() ? drawn_width_ - line.size() : 0;
-  fmt::print(stderr, "\r{}{}", line, std::string(blank, ' '));
+  const int full = static_cast<int>(std::lround(std::clamp(progress.share, 0.0, 1.0) * width));
+  const std::string bar(static_cast<std::size_t>(full), '#'),
+      rest(static_cast<std::size_t>(width - full), '.');
+  std::string words = fmt::format(" {:3.0f} %  {}", 100 * progress.share, text(progress));
+  // A line that wraps cannot be drawn over.
+  constexpr std::size_t brackets = 2;
+  const std::size_t room =
+      terminal_columns() - std::min<std::size_t>(terminal_columns(), width + brackets + 1);
+  if (words.size() > room) {
+    words.resize(room);
+    while (!words.empty() && (words.back() & 0x80) != 0) words.pop_back();  // half of a letter
+  }
+  const std::size_t drawn = width + brackets + words.size();
+  const std::size_t blank = drawn_width_ > drawn ? drawn_width_ - drawn : 0;
+  fmt::print(stderr, "\r[{}{}]{}{}", inked(bar, Ink::good, stderr), rest, words, std::string(blank, ' '));
   std::fflush(stderr);
-  drawn_width_ = line.size();
+  drawn_width_ = drawn;
 }
 
 }  // namespace catoptric::cli

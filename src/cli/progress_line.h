@@ -3,16 +3,19 @@
 #include <chrono>
 #include <string>
 
+#include "cli/json_lines.h"
 #include "design/run.h"
 
 namespace catoptric::cli {
 
-/// Shows a run's progress on standard error: one bar that redraws itself on a terminal, a plain line now and
-/// then elsewhere.
+/// Who is told of a run's progress: nobody, a person (one bar that redraws itself on a terminal, a plain line
+/// now and then elsewhere; standard error), or a program (JSON lines; standard output).
+enum class Watcher { nobody, person, program };
+
 class ProgressLine {
  public:
   /// @in unit  what the best value is in
-  ProgressLine(bool silent, std::string unit);
+  ProgressLine(Watcher watcher, std::string unit);
   ~ProgressLine();
 
   void show(const design::Progress& progress);
@@ -22,10 +25,16 @@ class ProgressLine {
   void set_prefix(std::string prefix) { prefix_ = std::move(prefix); }
 
  private:
-  std::string text(const design::Progress& progress) const;
-
   using Clock = std::chrono::steady_clock;
-  bool silent_, terminal_;
+
+  bool is_due(const std::string& phase);
+  Pace pace(const design::Progress& progress) const;
+  std::string phase_text(const design::Progress& progress) const;
+  std::string text(const design::Progress& progress) const;
+  void draw_bar(const design::Progress& progress);
+
+  Watcher watcher_;
+  bool terminal_;
   std::string unit_, prefix_;
   std::string phase_;
   Clock::time_point phase_begin_ = Clock::now(), last_shown_{};

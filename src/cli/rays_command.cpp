@@ -11,14 +11,14 @@ ExitCode rays_command(const CommonOptions& options) {
   prepare_output_folder(run.out, report::room_for_rays(run.scene));
   const auto [files, rays] = report::write_rays(run.scene, run.control, run.out);
   run.line.finish();
-  if (!options.quiet) {
+  if (options.tells_people()) {
     fmt::print("{}", report::text_table(report::ray_table(rays)));
     fmt::print("{}, read back and checked, {:.3g} s\n",
                run.scene.rays.of_luminaire ? "in the scene's frame, mm"
                                            : "in the source's own frame, mm (see source.toml)",
                rays.seconds);
-    run.print_files(files);
   }
+  run.tell_files(files);
   return ExitCode::done;
 }
 

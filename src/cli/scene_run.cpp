@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include "base/atomic_file.h"
+#include "cli/json_lines.h"
 #include "cli/stop_signal.h"
+#include "cli/terminal.h"
 #include "design/memory_need.h"
 #include "design/metrics.h"
 
@@ -28,22 +30,32 @@ void tell_memory(const design::Scene& scene) {
 }  // namespace
 
 SceneRun::SceneRun(const CommonOptions& options)
-    : scene(design::read_scene(options.input, options.overrides())),
+    : options_(options),
+      scene(design::read_scene(options.input, options.overrides())),
       out(prepared_folder(options, scene)),
-      line(options.quiet, design::objective_unit(scene)),
+      line(watcher(options), design::objective_unit(scene)),
       control{&stop_on_signal(), [this](const design::Progress& progress) { line.show(progress); }},
       limit_(scene.threads) {
-  if (!options.quiet) tell_memory(scene);
+  if (options.json) json_begin(scene.title, out);
+  if (options.tells_people()) tell_memory(scene);
 }
 
-void SceneRun::print_files(const report::WrittenFiles& files) const {
-  for (const std::string& note : scene.profile_notes) fmt::print("note: {}\n", note);
-  for (const std::string& note : scene.target.notes) fmt::print("note: {}\n", note);
-  cli::print_files(files, out);
+void SceneRun::tell_files(report::WrittenFiles files) const {
+  for (const auto* more : {&scene.target.notes, &scene.profile_notes})
+    files.notes.insert(files.notes.begin(), more->begin(), more->end());
+  cli::tell_files(options_, files, out);
 }
 
-void print_files(const report::WrittenFiles& files, const std::filesystem::path& out, const char* more) {
-  for (const std::string& note : files.notes) fmt::print("note: {}\n", note);
+Watcher watcher(const CommonOptions& options) {
+  return options.json ? Watcher::program : options.quiet ? Watcher::nobody : Watcher::person;
+}
+
+void tell_files(const CommonOptions& options, const report::WrittenFiles& files,
+                const std::filesystem::path& out, const char* more) {
+  if (options.json) json_written(files, out);
+  if (!options.tells_people()) return;
+  for (const std::string& note : files.notes)
+    fmt::print("{} {}\n", inked("note:", Ink::warning, stdout), note);
   fmt::print("written to {}: {}{}\n", out.string(), fmt::join(files.names, ", "), more);
 }
 

@@ -18,9 +18,13 @@ struct SceneRun {
   SceneRun(const SceneRun&) = delete;
   SceneRun& operator=(const SceneRun&) = delete;
 
-  /// Which files were written where.
-  void print_files(const report::WrittenFiles& files) const;
+  /// Which files were written where, and what is to be noted; nothing with --quiet.
+  void tell_files(report::WrittenFiles files) const;
 
+ private:
+  const CommonOptions options_;
+
+ public:
   const design::Scene scene;
   const std::filesystem::path out;
   ProgressLine line;
@@ -30,7 +34,11 @@ struct SceneRun {
   design::ThreadLimit limit_;
 };
 
-/// The same lines for a command with several scenes.
-void print_files(const report::WrittenFiles& files, const std::filesystem::path& out, const char* more = "");
+/// Who is told of progress.
+Watcher watcher(const CommonOptions& options);
+
+/// Which files were written, for a command with several scenes.
+void tell_files(const CommonOptions& options, const report::WrittenFiles& files,
+                const std::filesystem::path& out, const char* more = "");
 
 }  // namespace catoptric::cli

@@ -10,12 +10,12 @@ ExitCode sensitivity_command(const CommonOptions& options) {
   const design::Sensitivity sensitivity = design::run_sensitivity(run.scene, run.control);
   const auto files = report::write_sensitivity(run.scene, sensitivity, run.out);
   run.line.finish();
-  if (!options.quiet) {
+  if (options.tells_people()) {
     fmt::print("{}", report::text_table(report::tolerance_table(sensitivity)));
     fmt::print("{}\n", report::budget_sentence(sensitivity));
     fmt::print("{} photons, {:.3g} s\n", sensitivity.photons, sensitivity.seconds);
-    run.print_files(files);
   }
+  run.tell_files(files);
   return ExitCode::done;
 }
 

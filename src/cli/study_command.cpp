@@ -5,6 +5,7 @@
 
 #include "base/atomic_file.h"
 #include "cli/commands.h"
+#include "cli/json_lines.h"
 #include "cli/scene_run.h"
 #include "cli/stop_signal.h"
 #include "design/memory_need.h"
@@ -83,8 +84,9 @@ ExitCode study_command(const CommonOptions& options) {
   for (const design::Scene& scene : scenes) room += report::room_for(scene);
   prepare_output_folder(out, room);
 
+  if (options.json) json_begin(list.title, out);
   const auto begin = std::chrono::steady_clock::now();
-  ProgressLine line(options.quiet, design::objective_unit(scenes.front()));
+  ProgressLine line(watcher(options), design::objective_unit(scenes.front()));
   const design::RunControl control{&stop_on_signal(), [&](const design::Progress& p) { line.show(p); }};
   std::vector<report::StudyRow> rows;
   rows.reserve(list.runs.size());  // a row stays where it is while its files are written
@@ -100,10 +102,10 @@ ExitCode study_command(const CommonOptions& options) {
   line.finish();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const auto files = report::write_study(list, rows, seconds, out);
-  if (!options.quiet) {
+  if (options.tells_people()) {
     fmt::print("{}\n{}{:.1f} s in all\n", list.title, report::text_table(report::study_table(rows)), seconds);
-    print_files(files, out, " and a folder per run");
   }
+  tell_files(options, files, out, " and a folder per run");
   return exit_code(rows, control.stopped());
 }
 

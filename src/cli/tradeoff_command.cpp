@@ -10,14 +10,14 @@ ExitCode tradeoff_command(const CommonOptions& options) {
   const design::Tradeoff trade = design::run_tradeoff(run.scene, run.control);
   const auto files = report::write_tradeoff(run.scene, trade, run.out);
   run.line.finish();
-  if (!options.quiet) {
+  if (options.tells_people()) {
     fmt::print("{}", report::text_table(report::front_table(run.scene, trade)));
     fmt::print("{}\n", trade.sentence);
     fmt::print("truth: {} (relative error {:.2g}); {} settings, {} left out, {:.1f} s, {}\n", trade.reference,
                trade.reference_error_rel, trade.rows.size(), trade.left_out.size(), trade.seconds,
                trade.machine);
-    run.print_files(files);
   }
+  run.tell_files(files);
   return run.control.stopped() ? ExitCode::interrupted : ExitCode::done;
 }
 

@@ -22,6 +22,7 @@ struct Progress {
   double best = 0;    ///< best objective so far; NaN when there is none
   long evaluations = 0;
   std::string note = {};  ///< what else there is to tell
+  long iterations = 0;    ///< of a search that goes step by step
 };
 
 /// What a caller may do to a run: stop it, watch it, and keep what its search was told. All may be left

@@ -31,15 +31,16 @@ class Telling {
     if (value < infeasible_floor && (std::isnan(best_) || value < best_)) best_ = value;
     const double spent =
         static_cast<double>(evaluations_) / static_cast<double>(scene_.search.most_evaluations);
-    control_.tell({"search", std::max(share_, spent), best_, evaluations_});
+    control_.tell({"search", std::max(share_, spent), best_, evaluations_, {}, iterations_});
     return value;
   }
+  void iterated(const optim::Iterate& iterate) { iterations_ = iterate.iteration; }
   void stepped(double step) { share_ = share_done(scene_, step); }
 
  private:
   const Scene& scene_;
   const RunControl& control_;
-  long evaluations_ = 0;
+  long evaluations_ = 0, iterations_ = 0;
   double best_ = std::numeric_limits<double>::quiet_NaN(), share_ = 0;
 };
 
@@ -52,6 +53,7 @@ optim::Outcome by_hooke_jeeves(const SearchSpec& spec, const optim::StartedSearc
   options.most_iterations = spec.most_iterations;
   options.reach = one.limits.reach;
   options.progress = [&](const optim::Iterate& iterate) {
+    telling.iterated(iterate);
     telling.stepped(iterate.step);
     return true;
   };
@@ -66,6 +68,7 @@ optim::Outcome by_fit(const Scene& scene, const Target& target, const optim::Sta
   options.most_iterations = scene.search.most_iterations;
   options.reach = one.limits.reach;
   options.progress = [&](const optim::Iterate& iterate) {
+    telling.iterated(iterate);
     telling.evaluated(iterate.value);
     return true;
   };
