@@ -95,7 +95,7 @@ std::string bash_completion(const ProgramWords& program) {
                                       option.name, fmt::join(option.choices, " ")));
   }
   return fmt::format(
-      R"(# bash completion of catoptric; made by "catoptric completion bash"
+      R"bash(# bash completion of catoptric; made by "catoptric completion bash"
 _catoptric() {{
   local current="${{COMP_WORDS[COMP_CWORD]}}" before="${{COMP_WORDS[COMP_CWORD - 1]}}" options= endings= words=
   COMPREPLY=()
@@ -129,13 +129,11 @@ _catoptric() {{
       shopt -s extglob
       COMPREPLY=($(compgen -f -X "!*.@($endings)" -- "$current") $(compgen -d -- "$current"))
       [ -z "$reset" ] || shopt -u extglob
-      ;
-  ;
+      ;;
   esac
-}
-}
+}}
 complete -F _catoptric catoptric
-)",
+)bash",
       fmt::join(first, " "), fmt::join(fixed_keys(), " "), fmt::join(choices, ""), cases);
 }
 
@@ -148,7 +146,7 @@ std::string zsh_completion(const ProgramWords& program) {
     cases += fmt::format("    {}) _arguments {} ;;\n", command.name, fmt::join(options, " "));
   }
   return fmt::format(
-      R"(#compdef catoptric
+      R"zsh(#compdef catoptric
 # zsh completion of catoptric; made by "catoptric completion zsh"
 _catoptric_keys() {{
   local -a keys
@@ -170,7 +168,7 @@ _catoptric() {{
 {}  esac
 }}
 _catoptric "$@"
-)",
+)zsh",
       fmt::join(fixed_keys(), " "), commands, cases);
 }
 

@@ -54,12 +54,12 @@ std::string ProgressLine::phase_text(const design::Progress& progress) const {
 std::string ProgressLine::text(const design::Progress& progress) const {
   const Pace pace = this->pace(progress);
   std::string line = phase_text(progress);
-  if (progress.iterations > 0) line += fmt::format("  iteration {}", progress.iterations);
+  if (progress.iterations > 0) line += fmt::format(", iteration {}", progress.iterations);
   if (!std::isnan(progress.best)) line += fmt::format("  best {:.4g} {}", progress.best, unit_);
-  if (progress.evaluations > 0) line += fmt::format("  {} evaluations", progress.evaluations);
+  if (progress.evaluations > 0) line += fmt::format("  {} evals", progress.evaluations);
   if (pace.evaluations_per_s > 0) line += fmt::format("  {:.3g}/s", pace.evaluations_per_s);
   if (!progress.note.empty()) line += "  " + progress.note;
-  if (pace.seconds_left >= 0) line += fmt::format("  about {:.0f} s left", pace.seconds_left);
+  if (pace.seconds_left >= 0) line += fmt::format("  {:.0f} s left", pace.seconds_left);
   return line;
 }
 
@@ -74,15 +74,15 @@ void ProgressLine::show(const design::Progress& progress) {
 }
 
 void ProgressLine::draw_bar(const design::Progress& progress) {
-  constexpr int width = 24;
-  const int full = static_cast<int>(std::lround(std::clamp(progress.share, 0.0, 1.0) * width));
-  const std::string bar(static_cast<std::size_t>(full), '#'),
-      rest(static_cast<std::size_t>(width - full), '.');
+  const std::size_t columns = terminal_columns();
+  const auto width = std::clamp<std::size_t>(columns / 12, 6, 24);
+  const auto full = static_cast<std::size_t>(
+      std::lround(std::clamp(progress.share, 0.0, 1.0) * static_cast<double>(width)));
+  const std::string bar(full, '#'), rest(width - full, '.');
   std::string words = fmt::format(" {:3.0f} %  {}", 100 * progress.share, text(progress));
   // A line that wraps cannot be drawn over.
   constexpr std::size_t brackets = 2;
-  const std::size_t room =
-      terminal_columns() - std::min<std::size_t>(terminal_columns(), width + brackets + 1);
+  const std::size_t room = columns - std::min(columns, width + brackets + 1);
   if (words.size() > room) {
     words.resize(room);
     while (!words.empty() && (words.back() & 0x80) != 0) words.pop_back();  // half of a letter

@@ -11,7 +11,7 @@ components=program
 (cd "$build" && cpack -G DEB -B "$work" -D CPACK_COMPONENTS_ALL="$components") >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
 package=$(echo "$work"/catoptric_*.deb)
 dpkg-deb --field "$package" Package Version Depends
-for library in libocct-data-exchange libembree libceres libpng libfmt; do
+for library in libocct-data-exchange libembree libnlopt libpng libfmt libtbb; do
   dpkg-deb --field "$package" Depends | grep -q "$library" || { echo "does not depend on $library"; exit 1; }
 done
 dpkg-deb --contents "$package" >"$work/contents"
