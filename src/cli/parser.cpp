@@ -31,8 +31,8 @@ void add_common(CLI::App& command, CommonOptions& options, const char* input) {
 struct Parser {
   CLI::App app{"Designs rotationally symmetric mirrors from the light they must make."};
   CommandLine line;
-  std::vector<std::string> shells{"bash", "zsh", "fish"}, formats{"step", "iges", "brep", "stl", "glb", "dxf"},
-      units{"mm", "cm", "m", "in"};
+  std::vector<std::string> shells{"bash", "zsh", "fish"},
+      formats{"step", "iges", "brep", "stl", "glb", "dxf"}, units{"mm", "cm", "m", "in"};
 
   Parser() {
     app.name("catoptric");
