@@ -10,9 +10,10 @@ build_packages=(
   libocct-data-exchange-dev libfontconfig-dev libeigen3-dev libtbb-dev libfmt-dev
   libceres-dev libpagmo-dev libnlopt-dev libembree-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libpng-dev
   librandom123-dev libnanoflann-dev libdxflib-dev libboost-dev libkainjow-mustache-dev
-  gnuplot-nox
+  gnuplot-nox libjs-three
 )
-test_packages=(catch2 freecad-python3 clang-format-14 python3-gmsh python3-ezdxf admesh assimp-utils)
+test_packages=(catch2 freecad-python3 clang-format-14 python3-gmsh python3-ezdxf admesh assimp-utils
+  chromium chromium-driver python3-selenium)
 
 usage() {
   sed -n '2,4s/^# \{0,1\}//p' "$0"

@@ -96,6 +96,7 @@ class PhotonTracer {
       std::array<double, most_emission_numbers> own{};
       for (std::size_t row = 0; row < rows; ++row) own[row] = numbers[row][photon - first];
       photons_.emplace_back(photon, flight_.emission.emit(own, flight_.options.stream), flight_.key);
+      if (flight_.paths) (*flight_.paths)[photon].corners_mm.push_back(photons_.back().ray.origin_mm);
     }
   }
 
@@ -124,6 +125,7 @@ class PhotonTracer {
       record_flight(photon, reach_mm, stop);
     }
     if (!stop && !hit) {
+      if (flight_.paths) (*flight_.paths)[photon.number].leaves_towards = photon.ray.direction;
       if (flight_.departs) result_.departures.push_back(photon.ray);
       return !is_met(photon) ? Fate::missed : photon.received ? Fate::received : Fate::escaped;
     }
@@ -209,6 +211,8 @@ class PhotonTracer {
     if (field > 0 && flight_.more->empty()) return;
     const RecordedArea& area = field == 0 ? flight_.area : (*flight_.more)[field - 1];
     const NearField& patch = field_at(field);
+    if (flight_.paths && field == 0 && patch.contains(arrival.plane_mm))
+      (*flight_.paths)[photon.number].landed_mm = patch.to_space(arrival.plane_mm);
     const std::uint64_t photon_and_side =
         2 * photon.number + (arrival.from_front ? 1 : 0) + (std::uint64_t{field} << Crossing::field_bits_at);
     const auto add = [&](const Vector2& plane_mm) {
@@ -225,6 +229,7 @@ class PhotonTracer {
     const bool first = !photon.touched;
     if (first) ++result_.counts.met_mirror;
     photon.touched = true;
+    if (flight_.paths) (*flight_.paths)[photon.number].met_mirror = true;
     start_on(photon, hit.point_mm);
     photon.on_mirror = true;
     const Roulette roulette = first && !all_alike_ ? Roulette::survivors : Roulette::all;
@@ -293,7 +298,8 @@ class PhotonTracer {
     return std::nullopt;
   }
 
-  static void start_on(Photon& photon, const Vector3& point_mm) {
+  void start_on(Photon& photon, const Vector3& point_mm) const {
+    if (flight_.paths) (*flight_.paths)[photon.number].corners_mm.push_back(point_mm);
     photon.ray.origin_mm = point_mm;
     photon.on_mirror = false;
     photon.on_field.reset();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/flight_counts.h"
+#include "sim/light_paths.h"
 #include "sim/opening.h"
 #include "sim/tracer.h"
 
@@ -29,6 +30,7 @@ struct Flight {
   bool departs = false;                ///< there is no near field; where photons go is what is asked for
   const Surroundings* room = nullptr;  ///< null: mirror and near field are all there is
   const std::vector<RecordedArea>* more = nullptr;  ///< of the room's fields
+  std::vector<LightPath>* paths = nullptr;          ///< of photon i at i; null: they are not kept
 };
 
 /// Traces photons in three dimensions through all their bounces.

@@ -34,7 +34,7 @@ void remove_target(Settings& settings) {
 
 }  // namespace
 
-std::string designed_text(const Scene& scene, const Judged& found) {
+Scene designed_scene(const Scene& scene, const Judged& found) {
   Settings settings = scene.settings;
   for (const std::string& name : settings.names_under("variables"))
     for (const char* part : {"start", "step", "lower", "upper"})
@@ -52,7 +52,11 @@ std::string designed_text(const Scene& scene, const Judged& found) {
       other_source = true;
     }
   if (other_source && scene.target.kind == TargetKind::reflector) remove_target(settings);
-  return scene_text(make_scene(std::move(settings)));
+  return make_scene(std::move(settings));
+}
+
+std::string designed_text(const Scene& scene, const Judged& found) {
+  return scene_text(designed_scene(scene, found));
 }
 
 }  // namespace catoptric::design

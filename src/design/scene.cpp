@@ -253,6 +253,16 @@ TradeoffSpec tradeoff(const Settings& settings) {
           *settings.number("tradeoff.reference_accuracy")};
 }
 
+constexpr double aluminium_kg_per_m3 = 2700;
+
+/// What the mirror is made of is at least as thick as the solid that is exported.
+double sheet_mm(const Settings& settings, double unit_mm) {
+  constexpr double usual_mm = 1;
+  for (const char* key : {"reflector.sheet", "reflector.wall"})
+    if (const auto thickness = settings.number(key)) return *thickness * unit_mm;
+  return usual_mm;
+}
+
 TailoredSpec tailored(const Settings& settings, double unit_mm) {
   TailoredSpec spec{};
   const std::string map = *settings.text("tailored.map");
@@ -299,6 +309,8 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
               .opening_mm = opened_mm,
               .profile_notes = std::move(notes),
               .mirror = mirror,
+              .sheet_mm = sheet_mm(settings, unit_mm),
+              .density_kg_per_m3 = settings.number("reflector.density").value_or(aluminium_kg_per_m3),
               .near_field = std::move(field),
               .samples = static_cast<std::size_t>(*settings.integer("near_field.samples")),
               .surroundings = read_surroundings(settings, unit_mm),

@@ -158,6 +158,8 @@ struct Scene {
   std::optional<double> opening_mm;        ///< radius to be cut from every mirror; Profile has none of it yet
   std::vector<std::string> profile_notes;  ///< where an imported generatrix came from
   sim::Material mirror;
+  double sheet_mm = 1;              ///< that the mirror is made of; for its mass alone
+  double density_kg_per_m3 = 2700;  ///< likewise
   sim::NearField near_field;
   std::size_t samples;
   std::shared_ptr<const sim::Surroundings> surroundings;  ///< null: nothing stands about

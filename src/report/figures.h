@@ -78,8 +78,10 @@ std::string irradiance_surface_script(const IrradianceFigure& figure, const Surf
 struct RadialCurve {
   std::string label;
   std::vector<double> r, irradiance;
-  std::vector<double> half_band;  ///< drawn as irradiance plus and minus this; may be empty
+  std::vector<double> half_band;  ///< drawn as a band of plus and minus this; may be empty
   CurveRole role = CurveRole::other;
+  std::vector<double> band_shift = {};  ///< of the band's middle from the curve; empty: none
+  std::string band_label = {};          ///< empty: the band has no entry in the key
 };
 struct RadialCutFigure {
   std::string title;
@@ -109,6 +111,14 @@ struct LineFigure {
   AxisScale x_scale = AxisScale::linear, y_scale = AxisScale::linear;
 };
 std::string line_script(const LineFigure& figure);
+
+/// Intensity in planes that hold a luminaire's axis, as a polar diagram: the axis points down.
+struct PolarFigure {
+  std::string title;
+  std::string intensity_label;  ///< with its unit
+  std::vector<Curve> curves;    ///< x angle to the axis in degrees, negative on the other side; y intensity
+};
+std::string polar_script(const PolarFigure& figure);
 
 /// What settings cost and how near the truth they come, on logarithmic axes.
 struct TradeFigure {

@@ -8,8 +8,11 @@
 
 #include <kainjow/mustache.hpp>
 
+#include "base/light_units.h"
 #include "report/page_template.h"
 #include "report/text.h"
+#include "report/three_js.h"
+#include "report/view_script.h"
 
 namespace catoptric::report {
 namespace {
@@ -38,7 +41,7 @@ data table_data(const PageTable& shown) {
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     number.push_back(holds_numbers(table, i));
     data column;
-    column.set("heading", clean_line(heading(table.columns[i])));
+    column.set("heading", printed(clean_line(heading(table.columns[i]))));
     column.set("number", static_cast<bool>(number[i]));
     columns << column;
   }
@@ -55,6 +58,8 @@ data table_data(const PageTable& shown) {
     rows << line;
   }
   data result;
+  result.set("is_folded", !shown.folded.empty());
+  result.set("folded", clean_line(shown.folded));
   result.set("has_caption", !shown.caption.empty());
   result.set("caption", clean_line(shown.caption));
   result.set("columns", columns);
@@ -99,7 +104,43 @@ data figure_data(const PageFigure& figure, std::size_t number) {
   return result;
 }
 
-data section_data(const PageSection& section, std::size_t& figure_number) {
+/// A relative address that cannot be taken for one of another place.
+/// @from  RFC 3986: all but unreserved characters and "/" by their bytes
+std::string relative_address(std::string_view path) {
+  std::string address = "./";
+  for (const char c : path) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       std::string_view("-._~/").find(c) != std::string_view::npos;
+    address += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return address;
+}
+
+data links_data(const std::vector<Fact>& links) {
+  data all = list();
+  for (const auto& [words, path] : links) {
+    data link;
+    link.set("words", clean_line(words));
+    link.set("address", relative_address(path));
+    all << link;
+  }
+  return all;
+}
+
+data listing_data(const PageListing& listing) {
+  std::string text;
+  for (std::size_t begin = 0; begin < listing.text.size();) {
+    const std::size_t end = std::min(listing.text.find('\n', begin), listing.text.size());
+    text += clean_line(std::string_view(listing.text).substr(begin, end - begin)) + "\n";
+    begin = end + 1;
+  }
+  data result;
+  result.set("caption", clean_line(listing.caption));
+  result.set("text", text);
+  return result;
+}
+
+data section_data(const PageSection& section, std::size_t number, std::size_t& figure_number) {
   data paragraphs = list(), tables = list(), figures = list();
   for (const std::string& paragraph : section.paragraphs) {
     data text;
@@ -108,8 +149,16 @@ data section_data(const PageSection& section, std::size_t& figure_number) {
   }
   for (const PageTable& table : section.tables) tables << table_data(table);
   for (const PageFigure& figure : section.figures) figures << figure_data(figure, ++figure_number);
+  data listings = list();
+  for (const PageListing& listing : section.listings) listings << listing_data(listing);
   data result;
+  result.set("place", fmt::format("part{}", number));
   result.set("heading", clean_line(section.heading));
+  result.set("has_view", section.view.has_value());
+  if (section.view) result.set("view_caption", clean_line(section.view->caption));
+  result.set("has_links", !section.links.empty());
+  result.set("links", links_data(section.links));
+  result.set("listings", listings);
   result.set("paragraphs", paragraphs);
   result.set("has_facts", !section.facts.empty());
   result.set("facts", facts_data(section.facts));
@@ -123,8 +172,23 @@ data section_data(const PageSection& section, std::size_t& figure_number) {
 std::string html_page(const Page& page) {
   std::size_t figure_number = 0;
   data sections = list();
-  for (const PageSection& section : page.sections) sections << section_data(section, figure_number);
+  const View3d* view = nullptr;
+  for (std::size_t i = 0; i < page.sections.size(); ++i) {
+    sections << section_data(page.sections[i], i + 1, figure_number);
+    if (page.sections[i].view) view = &*page.sections[i].view;
+  }
   data everything;
+  everything.set("has_origin", !page.origin.empty());
+  everything.set("origin", clean_line(page.origin));
+  everything.set("has_contents", page.sections.size() > 2);
+  everything.set("has_view", view != nullptr);
+  if (view) {
+    everything.set("view_data", view_json(*view));
+    everything.set("view_script", inside_script(view_script));
+    everything.set("three_js", inside_script(three_js()));
+    everything.set("orbit_controls_js", inside_script(orbit_controls_js()));
+    everything.set("three_js_licence", std::string(three_js_licence()));
+  }
   everything.set("title", clean_line(page.title));
   everything.set("has_subtitle", !page.subtitle.empty());
   everything.set("subtitle", clean_line(page.subtitle));

@@ -7,8 +7,10 @@
 #include "photometry/eulumdat.h"
 #include "photometry/intensity_file.h"
 #include "report/figures.h"
-#include "report/html_report.h"
+#include "report/page_parts.h"
+#include "report/page_tables.h"
 #include "report/result_json.h"
+#include "report/run_figures.h"
 #include "report/run_folder.h"
 
 namespace catoptric::report {
@@ -152,6 +154,35 @@ Table intensity_table(const LuminaireIntensity& luminaire) {
   return table;
 }
 
+PageSection intensity_section(const LuminaireIntensity& luminaire, std::vector<PageFigure> figures) {
+  PageSection section{"Light from afar", {}, {}, {}, std::move(figures)};
+  const Units unit(luminaire);
+  section.paragraphs.push_back(
+      fmt::format("Source and mirror without the near field, by {} photons; the noise of the intensities is "
+                  "{:.2g} of them, what "
+                  "the steps of the table blur {:.2g} (root mean squares over the sphere). catoptric "
+                  "intensity takes as many "
+                  "photons as the scene says.",
+                  luminaire.photons, luminaire.noise_rel, luminaire.bias_rel));
+  if (!luminaire.remark.empty()) section.paragraphs.push_back(luminaire.remark);
+  section.facts = {
+      {"Leaves the luminaire", measured_text(luminaire.flux.value, luminaire.flux.noise) + " " + unit.flux},
+      {"Efficiency", fmt::format("{:.3g} % of the source's {:.4g} {}", 100 * efficiency(luminaire),
+                                 luminaire.source_flux, unit.flux)},
+      {"Greatest intensity", fmt::format("{} {} at {:.3g} degrees to the axis of the beam",
+                                         measured_text(luminaire.peak.value, luminaire.peak.noise),
+                                         unit.intensity, luminaire.peak_gamma_deg)}};
+  for (const design::BeamAngle& angle : luminaire.angles) {
+    const std::string plane = luminaire.table.is_rotational() ? "" : fmt::format(", C{:g}", angle.c_deg);
+    const auto text = [](const std::optional<double>& degrees) {
+      return degrees ? fmt::format("{:.3g} degrees", *degrees) : std::string("none: it does not fall so low");
+    };
+    section.facts.emplace_back("Beam angle (above 50 %)" + plane, text(angle.half_deg));
+    section.facts.emplace_back("Field angle (above 10 %)" + plane, text(angle.tenth_deg));
+  }
+  return section;
+}
+
 WrittenFiles write_intensity(const design::Scene& scene, const LuminaireIntensity& luminaire,
                              const std::filesystem::path& path) {
   RunFolder folder(path);
@@ -173,23 +204,18 @@ WrittenFiles write_intensity(const design::Scene& scene, const LuminaireIntensit
                       photometry::most_eulumdat_angles, luminaire.table.gamma_deg().size()));
   } else
     folder.note("no photometric files: these are in lm, and the scene is in W (source.flux)");
-  Page page{scene.title.empty() ? scene.settings.file() : scene.title,
-            std::string("The luminaire from afar: source and mirror, without the near field.") +
-                (luminaire.remark.empty() ? "" : " " + luminaire.remark),
-            {},
-            {},
-            fmt::format("catoptric {} · seed {} · run again with: catoptric intensity scene.toml", version(),
-                        scene.seed)};
+  Page page = page_of(scene, "intensity");
+  page.subtitle = std::string("The luminaire from afar: source and mirror, without the near field.") +
+                  (luminaire.remark.empty() ? "" : " " + luminaire.remark);
   page.facts = {
       {"Photons", fmt::format("{} replicates, {} photons in all", scene.model.replicates, luminaire.photons)},
       {"Directions", fmt::format("{} angles to the axis, {} about it", luminaire.table.gamma_deg().size(),
                                  luminaire.table.c_deg().size())},
       {"Time", fmt::format("{:.1f} s", luminaire.seconds)}};
-  PageSection figures_section{"Figures", {}, {}, {{"", luminaire_table(luminaire)}}, {}};
-  for (const DrawnFigure& figure : folder.draw_all(figures(luminaire)))
-    figures_section.figures.push_back(
-        {figure.caption, figure.svg, "not drawn; its data is in figures/" + figure.name + ".gp"});
-  page.sections = {figures_section};
+  std::vector<NamedFigure> pictures{polar_picture(luminaire)};
+  for (NamedFigure& figure : figures(luminaire)) pictures.push_back(std::move(figure));
+  page.sections = {{"Figures", {}, {}, {{"", luminaire_table(luminaire)}}, picked(folder.draw_all(pictures))},
+                   again_section(scene, "intensity")};
   folder.text("report.html", html_page(page));
   return folder.take();
 }

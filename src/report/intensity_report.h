@@ -1,6 +1,7 @@
 #pragma once
 
 #include "design/luminaire.h"
+#include "report/html_report.h"
 #include "report/run_files.h"
 #include "report/table.h"
 
@@ -11,6 +12,9 @@ Table luminaire_table(const design::LuminaireIntensity& luminaire);
 
 /// gamma, C, intensity, noise, bias: one row per direction.
 Table intensity_table(const design::LuminaireIntensity& luminaire);
+
+/// The main figures for another command's page, with the picture that it drew.
+PageSection intensity_section(const design::LuminaireIntensity& luminaire, std::vector<PageFigure> figures);
 
 /// `intensity.json`, `intensity.csv`, `scene.toml`, `report.html` and plots; of a scene in lm also
 /// `luminaire.ies` (LM-63-2019, marked as a simulation) and `luminaire.ldt`.

@@ -125,10 +125,10 @@ std::string landscape_contour_script(const LandscapeFigure& figure) {
   for (std::size_t i = 0; i < figure.paths.size(); ++i) {
     const Curve& path = figure.paths[i];
     script += data_block(fmt::format("path{}", i), {&path.x, &path.y});
-    parts.push_back(
-        fmt::format("$path{} using 1:2 with linespoints lc rgb '#000000' lw 4 pt 7 ps 0.7 notitle", i));
-    parts.push_back(fmt::format("$path{} using 1:2 with linespoints {} pt 7 ps 0.45 title {}", i,
-                                line_look(path.role, i), gnuplot_text(path.label)));
+    parts.push_back(fmt::format(
+        "$path{} using 1:2 with linespoints lc rgb '#000000' lw 4 pt {} ps 0.7 notitle", i, point_shape(i)));
+    parts.push_back(fmt::format("$path{} using 1:2 with linespoints {} pt {} ps 0.45 title {}", i,
+                                line_look(path.role, i), point_shape(i), gnuplot_text(path.label)));
   }
   for (const Mark& mark : figure.marks)
     script += mark_label(mark, plot_number(mark.x) + "," + plot_number(mark.y));

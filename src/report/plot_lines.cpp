@@ -27,11 +27,14 @@ std::string log_axis(char axis, AxisScale scale) {
 void add_band(const RadialCurve& curve, std::size_t index, std::string& script,
               std::vector<std::string>& parts) {
   if (curve.half_band.empty()) return;
-  script += data_block(fmt::format("band{}", index), {&curve.r, &curve.irradiance, &curve.half_band});
+  const std::vector<double> shift =
+      curve.band_shift.empty() ? std::vector<double>(curve.r.size(), 0.0) : curve.band_shift;
+  script += data_block(fmt::format("band{}", index), {&curve.r, &curve.irradiance, &curve.half_band, &shift});
   parts.push_back(
-      fmt::format("$band{} using 1:($2-$3):($2+$3) with filledcurves fc rgb '{}' fs transparent solid 0.22 "
-                  "noborder notitle",
-                  index, line_colour(curve.role, index)));
+      fmt::format("$band{} using 1:($2+$4-$3):($2+$4+$3) with filledcurves fc rgb '{}' fs transparent solid "
+                  "0.22 noborder {}",
+                  index, line_colour(curve.role, index),
+                  curve.band_label.empty() ? "notitle" : "title " + gnuplot_text(curve.band_label)));
 }
 
 }  // namespace
@@ -63,8 +66,8 @@ std::string convergence_script(const ConvergenceFigure& figure) {
     // the best value stands until a better one is found
     parts.push_back(fmt::format("$curve{} using 1:2 with steps {} title {}", i, line_look(curve.role, i),
                                 gnuplot_text(curve.label)));
-    parts.push_back(fmt::format("$curve{} using 1:2 with points lc rgb '{}' pt 7 ps 0.5 notitle", i,
-                                line_colour(curve.role, i)));
+    parts.push_back(fmt::format("$curve{} using 1:2 with points lc rgb '{}' pt {} ps 0.6 notitle", i,
+                                line_colour(curve.role, i), point_shape(i)));
   }
   return script + plot_command("plot", parts);
 }

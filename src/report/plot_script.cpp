@@ -146,7 +146,12 @@ std::string line_look(CurveRole role, std::size_t index) {
       break;
   }
   constexpr std::array<std::string_view, 4> dashes{"1", "(12,6)", "(4,4)", "(12,4,3,4)"};
-  return look(2, role == CurveRole::initial ? "1" : dashes[index / 8 % dashes.size()]);
+  return look(2, role == CurveRole::initial ? "1" : dashes[index % dashes.size()]);
+}
+
+int point_shape(std::size_t index) {
+  constexpr std::array<int, 10> shapes{7, 5, 9, 13, 11, 6, 4, 8, 12, 10};
+  return shapes[index % shapes.size()];
 }
 
 std::string mark_label(const Mark& mark, std::string_view place) {

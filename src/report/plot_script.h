@@ -43,6 +43,9 @@ std::string line_look(CurveRole role, std::size_t index);
 /// The colour alone.
 std::string line_colour(CurveRole role, std::size_t index);
 
+/// A gnuplot point type for one of several curves, so that they are not told apart by colour alone.
+int point_shape(std::size_t index);
+
 /// A point in front of everything with its name beside it, at "x,y" or "x,y,z"; nothing where a coordinate is
 /// not finite.
 std::string mark_label(const Mark& mark, std::string_view place);

@@ -24,13 +24,11 @@ std::string trade_script(const TradeFigure& figure) {
     parts.push_back(fmt::format("$front using 1:2 with steps lc rgb '#000000' lw 2 title {}",
                                 gnuplot_text(figure.front.label)));
   }
-  constexpr int shapes[] = {7, 5, 9, 13, 11, 6, 4, 8, 12, 10};
   for (std::size_t i = 0; i < figure.groups.size(); ++i) {
     const Curve& group = figure.groups[i];
     script += data_block(fmt::format("group{}", i), {&group.x, &group.y});
     parts.push_back(fmt::format("$group{} using 1:2 with points lc rgb '{}' pt {} ps 0.9 title {}", i,
-                                line_colour(CurveRole::other, i), shapes[i % std::size(shapes)],
-                                gnuplot_text(group.label)));
+                                line_colour(CurveRole::other, i), point_shape(i), gnuplot_text(group.label)));
   }
   return script + plot_command("plot", parts);
 }

@@ -149,17 +149,22 @@ std::vector<NamedFigure> irradiance_figures(const design::Scene& scene, const de
   return figures;
 }
 
+/// A curve's band at the samples, W/mm^2: how far it reaches, and what the curve lies above its middle.
+struct SampleBand {
+  std::vector<double> half, bias;
+};
+
 /// Means over rings of equal width about the near field's centre.
 RadialCurve ring_means(const design::Scene& scene, const design::Target& target,
-                       const std::vector<double>& w_per_mm2, const std::vector<double>& half_band_w_per_mm2,
-                       const std::string& label, CurveRole role) {
+                       const std::vector<double>& w_per_mm2, const SampleBand& band, const std::string& label,
+                       CurveRole role) {
   double reach_mm = 0;
   std::vector<double> distance_mm;
   for (const std::size_t i : design::samples_of_field(target, 0)) {  // these come first
     distance_mm.push_back(scene.near_field.to_plane(target.samples[i].point_mm).norm());
     reach_mm = std::max(reach_mm, distance_mm.back());
   }
-  std::vector<double> sum(radial_bins), radius(radial_bins), variance(radial_bins);
+  std::vector<double> sum(radial_bins), radius(radial_bins), square(radial_bins), bias(radial_bins);
   std::vector<int> count(radial_bins);
   for (std::size_t i = 0; i < distance_mm.size(); ++i) {
     const auto bin = std::min<std::size_t>(
@@ -167,7 +172,10 @@ RadialCurve ring_means(const design::Scene& scene, const design::Target& target,
                                                   radial_bins));  // the outermost sample stays inside
     sum[bin] += w_per_mm2[i];
     radius[bin] += distance_mm[i];
-    if (!half_band_w_per_mm2.empty()) variance[bin] += half_band_w_per_mm2[i] * half_band_w_per_mm2[i];
+    if (!band.half.empty()) {
+      square[bin] += band.half[i] * band.half[i];
+      bias[bin] += band.bias[i];
+    }
     ++count[bin];
   }
   RadialCurve curve{label, {}, {}, {}, role};
@@ -176,8 +184,9 @@ RadialCurve ring_means(const design::Scene& scene, const design::Target& target,
     curve.r.push_back(scene.to_scene_unit(radius[bin] / count[bin]));
     curve.irradiance.push_back(to_w_per_m2(sum[bin] / count[bin]));
     // neighbouring samples share photons, so the band is that of one sample, not of the ring's mean
-    if (!half_band_w_per_mm2.empty())
-      curve.half_band.push_back(to_w_per_m2(2 * std::sqrt(variance[bin] / count[bin])));
+    if (band.half.empty()) continue;
+    curve.half_band.push_back(to_w_per_m2(std::sqrt(square[bin] / count[bin])));
+    curve.band_shift.push_back(-to_w_per_m2(bias[bin] / count[bin]));
   }
   return curve;
 }
@@ -185,7 +194,7 @@ RadialCurve ring_means(const design::Scene& scene, const design::Target& target,
 NamedFigure radial_figure(const design::Scene& scene, const design::Target& target,
                           const design::Judgement& judgement) {
   const std::string name = heading(scene);
-  RadialCutFigure figure{name + " by distance from the near field's centre (band: 2 sigma of a sample)",
+  RadialCutFigure figure{name + " by distance from the near field's centre",
                          unit_of(scene),
                          std::string(irradiance_name(scene.source.quantity)),
                          printed(irradiance_unit(scene.source.quantity)),
@@ -196,20 +205,55 @@ NamedFigure radial_figure(const design::Scene& scene, const design::Target& targ
   figure.curves.push_back(ring_means(scene, target, judgement.direct, {}, "direct", CurveRole::direct));
   figure.curves.push_back(
       ring_means(scene, target, judgement.reflected, {}, "reflected", CurveRole::reflected));
-  figure.curves.push_back(
-      ring_means(scene, target, total(judgement), judgement.noise, "total", CurveRole::obtained));
-  return {"radial", name + " by distance from the centre", radial_cut_script(figure)};
+  const bool spread = std::any_of(judgement.half_interval.begin(), judgement.half_interval.end(),
+                                  [](double half) { return half > 0; });
+  SampleBand band;
+  if (spread) band = {judgement.half_interval, judgement.bias};  // tubes have none
+  figure.curves.push_back(ring_means(scene, target, total(judgement), band, "total", CurveRole::obtained));
+  figure.curves.back().band_label = "95 % interval of a sample";
+  std::string caption = name + " by distance from the near field's centre: means over rings.";
+  if (spread)
+    caption +=
+        " The band holds the field of one sample with 95 % probability, the kernel's bias taken off; where "
+        "it "
+        "does not lie about the line, the kernel blurs the field.";
+  return {"radial", caption, radial_cut_script(figure)};
 }
 
-NamedFigure convergence_figure(const design::Scene& scene, const optim::Outcome& outcome) {
-  Curve curve{"best so far", {}, {}, CurveRole::obtained};
-  for (const optim::Iterate& each : outcome.history) {
-    if (!(each.value < design::infeasible_floor)) continue;  // a rank of mirrors that break constraints
+/// The kernel of a stage of a coarse-to-fine search, which its moves name after a comma; else empty.
+std::string kernel_of(const optim::Iterate& iterate) {
+  const auto comma = iterate.move.find(", ");
+  return comma == std::string::npos ? "" : iterate.move.substr(comma + 2);
+}
+
+/// Values that are no ranks of mirrors that break constraints.
+Curve best_so_far(const std::vector<optim::Iterate>& history) {
+  Curve curve;
+  for (const optim::Iterate& each : history) {
+    if (!(each.value < design::infeasible_floor)) continue;
     curve.x.push_back(static_cast<double>(each.evaluations));
     curve.y.push_back(each.value);
   }
-  return {"convergence", "Convergence of the search",
-          convergence_script({"Convergence", metric_label(scene), {curve}})};
+  return curve;
+}
+
+/// One curve a kernel, since the objectives of different kernels are different ones.
+NamedFigure convergence_figure(const design::Scene& scene, const optim::Outcome& outcome) {
+  std::vector<Curve> curves;
+  for (const optim::Iterate& each : outcome.history) {
+    if (!(each.value < design::infeasible_floor)) continue;  // a rank of mirrors that break constraints
+    const std::string kernel = kernel_of(each), label = kernel.empty() ? "best so far" : kernel;
+    if (curves.empty() || curves.back().label != label)
+      curves.push_back({label, {}, {}, kernel.empty() ? CurveRole::obtained : CurveRole::other});
+    curves.back().x.push_back(static_cast<double>(each.evaluations));
+    curves.back().y.push_back(each.value);
+  }
+  const bool staged = curves.size() > 1;
+  return {"convergence",
+          staged ? "Convergence of the search: the best objective so far, each kernel's own, since a wide "
+                   "kernel's objective is not a narrow one's."
+                 : "Convergence of the search: the best objective so far.",
+          convergence_script({"Convergence", metric_label(scene), std::move(curves)})};
 }
 
 /// Where a path begins and ends; paths that begin together share a mark with all their names.
@@ -224,64 +268,26 @@ void add_marks(std::vector<Mark>& marks, const std::string& name, PlanePoint beg
   marks.push_back({"", end.x, end.y, MarkKind::end});
 }
 
-}  // namespace
-
-std::vector<NamedFigure> design_figures(const design::Scene& scene, const design::DesignResult& result) {
-  std::vector<NamedFigure> figures{
-      {"generatrix", "Generatrix before and after",
-       generatrix_script(generatrix_figure(
-           scene, result.best.source,
-           {generatrix_curve(scene, result.start.profile, "start", CurveRole::initial),
-            generatrix_curve(scene, result.best.profile, "result", CurveRole::obtained)}))}};
-  figures.push_back(radial_figure(scene, result.target, result.best.judgement));
-  if (result.search.value < design::infeasible_floor)
-    figures.push_back(convergence_figure(scene, result.search));
-  for (NamedFigure& figure :
-       irradiance_figures(scene, result.target,
-                          {{"result", heading(scene) + " of the result", total(result.best.judgement)},
-                           {"target", "Target", result.target.irradiance_w_per_mm2},
-                           {"start", heading(scene) + " of the start (its own scale)",
-                            total(result.start.judgement), false}}))
-    figures.push_back(std::move(figure));
-  return figures;
-}
-
-std::vector<NamedFigure> simulation_figures(const design::Scene& scene,
-                                            const design::SimulationResult& result) {
-  std::vector<NamedFigure> figures{
-      {"generatrix", "Generatrix",
-       generatrix_script(generatrix_figure(
-           scene, result.mirror.source,
-           {generatrix_curve(scene, result.mirror.profile, "mirror", CurveRole::obtained)}))}};
-  figures.push_back(radial_figure(scene, result.target, result.mirror.judgement));
-  std::vector<FieldView> views{{"result", heading(scene), total(result.mirror.judgement)}};
-  if (result.mirror.judgement.has_objective)
-    views.push_back({"target", "Target", result.target.irradiance_w_per_mm2});
-  for (NamedFigure& figure : irradiance_figures(scene, result.target, views))
-    figures.push_back(std::move(figure));
-  return figures;
-}
-
-std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const design::Landscape& landscape) {
-  const std::string x_label = variable_label(scene, landscape.names[0]);
-  if (landscape.axes.size() == 1) {
-    LineFigure figure{"Objective",
-                      x_label,
-                      metric_label(scene),
-                      {{"objective", landscape.axes[0], landscape.objective, CurveRole::obtained}},
-                      {}};
-    for (const design::SearchPath& path : landscape.paths) {
-      if (path.values.empty()) continue;  // nothing says how high it lies
-      add_marks(figure.marks, path.name, {path.points.front()[0], path.values.front()},
-                {path.points.back()[0], path.values.back()});
-      Curve curve{path.label, {}, path.values};
-      for (const auto& point : path.points) curve.x.push_back(point[0]);
-      figure.curves.push_back(std::move(curve));
-    }
-    return {{"landscape", "Objective over one variable", line_script(figure)}};
+NamedFigure landscape_line(const design::Scene& scene, const design::Landscape& landscape) {
+  LineFigure figure{"Objective",
+                    variable_label(scene, landscape.names[0]),
+                    metric_label(scene),
+                    {{"objective", landscape.axes[0], landscape.objective, CurveRole::obtained}},
+                    {}};
+  for (const design::SearchPath& path : landscape.paths) {
+    if (path.values.empty()) continue;  // nothing says how high it lies
+    add_marks(figure.marks, path.name, {path.points.front()[0], path.values.front()},
+              {path.points.back()[0], path.values.back()});
+    Curve curve{path.label, {}, path.values};
+    for (const auto& point : path.points) curve.x.push_back(point[0]);
+    figure.curves.push_back(std::move(curve));
   }
+  return {"landscape", "Objective over one variable", line_script(figure)};
+}
+
+LandscapeFigure landscape_of_two(const design::Scene& scene, const design::Landscape& landscape) {
   LandscapeFigure figure{"Objective",
-                         x_label,
+                         variable_label(scene, landscape.names[0]),
                          variable_label(scene, landscape.names[1]),
                          metric_label(scene),
                          {landscape.axes[0], landscape.axes[1], {}},
@@ -302,8 +308,64 @@ std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const des
     figure.paths.push_back(std::move(curve));
   }
   figure.scale = AxisScale::logarithmic;  // the valley's floor and the caustics' peaks are decades apart
+  return figure;
+}
+
+/// Both sides of one plane over the angle to the axis, C + 180 on the other one.
+Curve polar_section(const design::LuminaireIntensity& luminaire, double c_deg) {
+  const bool round = luminaire.table.is_rotational();
+  Curve curve{round ? "all C" : fmt::format("C{:g}, C{:g}", c_deg, c_deg + 180), {}, {}};
+  const std::vector<double>& gamma = luminaire.table.gamma_deg();
+  for (auto angle = gamma.rbegin(); angle != gamma.rend(); ++angle) {
+    curve.x.push_back(-*angle);
+    curve.y.push_back(luminaire.table.at(*angle, c_deg + 180));
+  }
+  for (const double angle : gamma) {
+    curve.x.push_back(angle);
+    curve.y.push_back(luminaire.table.at(angle, c_deg));
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::vector<NamedFigure> design_figures(const design::Scene& scene, const design::DesignResult& result) {
   std::vector<NamedFigure> figures{
-      {"contours", "Objective over two variables", landscape_contour_script(figure)}};
+      {"generatrix",
+       "Generatrix before and after the search, with control points, in a plane through the axis",
+       generatrix_script(generatrix_figure(
+           scene, result.best.source,
+           {generatrix_curve(scene, result.start.profile, "start", CurveRole::initial),
+            generatrix_curve(scene, result.best.profile, "result", CurveRole::obtained)}))}};
+  figures.push_back(radial_figure(scene, result.target, result.best.judgement));
+  if (result.search.value < design::infeasible_floor)
+    figures.push_back(convergence_figure(scene, result.search));
+  for (NamedFigure& figure :
+       irradiance_figures(scene, result.target,
+                          {{"result", heading(scene) + " of the result", total(result.best.judgement)},
+                           {"target", "Target", result.target.irradiance_w_per_mm2},
+                           {"start", heading(scene) + " of the start (its own scale)",
+                            total(result.start.judgement), false}}))
+    figures.push_back(std::move(figure));
+  return figures;
+}
+
+std::vector<NamedFigure> simulation_figures(const design::Scene& scene,
+                                            const design::SimulationResult& result) {
+  std::vector<NamedFigure> figures{mirror_picture(scene, result.mirror.profile, result.mirror.source)};
+  figures.push_back(radial_figure(scene, result.target, result.mirror.judgement));
+  std::vector<FieldView> views{{"result", heading(scene), total(result.mirror.judgement)}};
+  if (result.mirror.judgement.has_objective)
+    views.push_back({"target", "Target", result.target.irradiance_w_per_mm2});
+  for (NamedFigure& figure : irradiance_figures(scene, result.target, views))
+    figures.push_back(std::move(figure));
+  return figures;
+}
+
+std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const design::Landscape& landscape) {
+  std::vector<NamedFigure> figures{landscape_picture(scene, landscape)};
+  if (landscape.axes.size() == 1) return figures;
+  LandscapeFigure figure = landscape_of_two(scene, landscape);
   figure.paths.clear();
   figure.scale = AxisScale::linear;
   figure.greatest = scene.landscape->greatest;
@@ -312,6 +374,65 @@ std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const des
     figures.push_back({fmt::format("surface-{}", i + 1), "The same as a surface",
                        landscape_surface_script(figure, views[i])});
   return figures;
+}
+
+NamedFigure mirror_picture(const design::Scene& scene, const Profile& profile,
+                           const design::SourceSpec& source) {
+  return {"generatrix", "Generatrix with its control points, in a plane through the axis",
+          generatrix_script(generatrix_figure(
+              scene, source, {generatrix_curve(scene, profile, "mirror", CurveRole::obtained)}))};
+}
+
+std::vector<NamedFigure> study_figures(const std::vector<StudyRow>& rows) {
+  constexpr std::size_t most = 8;  // more curves are not told apart
+  std::vector<GeneratrixCurve> mirrors;
+  std::vector<Curve> searches;
+  const StudyRow* first = nullptr;
+  for (const StudyRow& row : rows) {
+    if (mirrors.size() == most || (!row.designed && !row.simulated)) continue;
+    // one figure has one unit, and one metric
+    if (first &&
+        (first->scene->unit != row.scene->unit || first->scene->search.metric != row.scene->search.metric))
+      continue;
+    if (!first) first = &row;
+    const design::Judged& judged = row.designed ? row.designed->best : row.simulated->mirror;
+    mirrors.push_back(generatrix_curve(*row.scene, judged.profile, "run " + row.run.name, CurveRole::other));
+    mirrors.back().control_r.clear();
+    mirrors.back().control_z.clear();
+    if (!row.designed || !(row.designed->search.value < design::infeasible_floor)) continue;
+    Curve search = best_so_far(row.designed->search.history);
+    search.label = "run " + row.run.name;
+    searches.push_back(std::move(search));
+  }
+  if (!first) return {};
+  const design::SourceSpec& source =
+      (first->designed ? first->designed->best : first->simulated->mirror).source;
+  const std::string which = rows.size() > most ? fmt::format(" of the first {} runs", most) : " of the runs";
+  std::vector<NamedFigure> figures{
+      {"generatrices", "The mirrors" + which + ", in a plane through the axis",
+       generatrix_script(generatrix_figure(*first->scene, source, std::move(mirrors)))}};
+  if (!searches.empty())
+    figures.push_back(
+        {"convergence", "The searches" + which + ": the best objective so far",
+         convergence_script({"Convergence", metric_label(*first->scene), std::move(searches)})});
+  return figures;
+}
+
+NamedFigure landscape_picture(const design::Scene& scene, const design::Landscape& landscape) {
+  if (landscape.axes.size() == 1) return landscape_line(scene, landscape);
+  return {"contours", "Objective over two variables",
+          landscape_contour_script(landscape_of_two(scene, landscape))};
+}
+
+NamedFigure polar_picture(const design::LuminaireIntensity& luminaire) {
+  PolarFigure figure{
+      "Intensity", fmt::format("intensity ({})", printed(intensity_unit(luminaire.table.quantity()))), {}};
+  for (const double c_deg : {0.0, 45.0, 90.0, 135.0}) {
+    if (c_deg > 0 && luminaire.table.is_rotational()) continue;
+    figure.curves.push_back(polar_section(luminaire, c_deg));
+  }
+  return {"intensity-polar", "Intensity by the angle to the axis of the beam, which points down",
+          polar_script(figure)};
 }
 
 }  // namespace catoptric::report

@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "design/luminaire.h"
 #include "design/run.h"
-#include "report/run_files.h"
+#include "report/run_tables.h"
 
 namespace catoptric::report {
 
@@ -25,5 +26,18 @@ std::vector<NamedFigure> simulation_figures(const design::Scene& scene,
 
 /// Contours with search paths, and the surface from three sides; a line for one variable.
 std::vector<NamedFigure> landscape_figures(const design::Scene& scene, const design::Landscape& landscape);
+
+/// The generatrix of one mirror, beside the target's where a mirror is the target.
+NamedFigure mirror_picture(const design::Scene& scene, const Profile& profile,
+                           const design::SourceSpec& source);
+
+/// The generatrices of a study's first mirrors, and the convergence of its first searches.
+std::vector<NamedFigure> study_figures(const std::vector<StudyRow>& rows);
+
+/// The first of the landscape's figures alone: contours, or the line, with the search paths.
+NamedFigure landscape_picture(const design::Scene& scene, const design::Landscape& landscape);
+
+/// Intensity as a polar diagram: one plane where the light is alike all round, else four.
+NamedFigure polar_picture(const design::LuminaireIntensity& luminaire);
 
 }  // namespace catoptric::report

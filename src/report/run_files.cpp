@@ -3,12 +3,23 @@
 #include <nlohmann/json.hpp>
 
 #include "design/designed_scene.h"
+#include "design/illustration.h"
 #include "report/result_json.h"
 #include "report/run_figures.h"
 #include "report/run_folder.h"
 #include "report/run_page.h"
 
 namespace catoptric::report {
+namespace {
+
+std::vector<NamedFigure> with_illustration(const design::Scene& scene, std::vector<NamedFigure> figures,
+                                           const design::Illustration& illustration) {
+  if (illustration.intensity) figures.push_back(polar_picture(*illustration.intensity));
+  if (illustration.landscape) figures.push_back(landscape_picture(scene, *illustration.landscape));
+  return figures;
+}
+
+}  // namespace
 
 std::uint64_t room_for(const design::Scene& scene) {
   // Measured: 6.4 MB of plots, page and exchange files, and 140 bytes a sample.
@@ -31,8 +42,9 @@ WrittenFiles write_design(const design::Scene& scene, const design::DesignResult
   folder.exchange("reflector.step", result.best.profile, scene.export_options);
   folder.exchange("reflector.igs", result.best.profile, scene.export_options);
   folder.exchange("reflector.dxf", result.best.profile, scene.export_options);
-  const auto figures = folder.draw_all(design_figures(scene, result));
-  folder.text("report.html", design_page(scene, result, figures));
+  const design::Illustration illustration = design::illustrate(scene, result);
+  const auto figures = folder.draw_all(with_illustration(scene, design_figures(scene, result), illustration));
+  folder.text("report.html", design_page(scene, result, illustration, figures));
   return folder.take();
 }
 
@@ -43,8 +55,10 @@ WrittenFiles write_simulation(const design::Scene& scene, const design::Simulati
   folder.text("result.json", json_text(result_json(scene, result)));
   folder.table("irradiance.csv", irradiance_table(scene, result.target, result.mirror.judgement));
   folder.table("generatrix.csv", generatrix_table(scene, {{"mirror", result.mirror.profile}}));
-  const auto figures = folder.draw_all(simulation_figures(scene, result));
-  folder.text("report.html", simulation_page(scene, result, figures));
+  const design::Illustration illustration = design::illustrate(scene);
+  const auto figures =
+      folder.draw_all(with_illustration(scene, simulation_figures(scene, result), illustration));
+  folder.text("report.html", simulation_page(scene, result, illustration, figures));
   return folder.take();
 }
 
@@ -72,7 +86,7 @@ WrittenFiles write_study(const design::Study& study, const std::vector<StudyRow>
   const Table table = study_table(rows);
   folder.text("study.json", json_text(list));
   folder.table("study.csv", table);
-  folder.text("report.html", study_page(study, table, seconds));
+  folder.text("report.html", study_page(study, rows, seconds, folder.draw_all(study_figures(rows))));
   return folder.take();
 }
 

@@ -7,9 +7,9 @@
 
 #include "base/profile.h"
 #include "cad/export.h"
+#include "report/page_parts.h"
 #include "report/run_figures.h"
 #include "report/run_files.h"
-#include "report/run_page.h"
 #include "report/table.h"
 
 namespace catoptric::report {

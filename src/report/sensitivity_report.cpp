@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/figures.h"
-#include "report/html_report.h"
+#include "report/page_parts.h"
 #include "report/result_json.h"
 #include "report/run_folder.h"
 
@@ -170,6 +170,27 @@ Table tolerance_table(const design::Sensitivity& sensitivity) {
   return table;
 }
 
+PageSection tolerance_section(const design::Sensitivity& sensitivity) {
+  constexpr std::size_t main_columns[] = {0, 1, 2, 3, 4, 5, 6, 7, 11};
+  const Table all = tolerance_table(sensitivity);
+  Table table;
+  for (const std::size_t column : main_columns) table.columns.push_back(all.columns[column]);
+  for (const auto& row : all.rows) {
+    table.rows.emplace_back();
+    for (const std::size_t column : main_columns) table.rows.back().push_back(row[column]);
+  }
+  PageSection section{"Tolerances", {budget_sentence(sensitivity)}, {}, {{"", std::move(table)}}, {}};
+  for (const auto& each : sensitivity.parameters)
+    section.facts.emplace_back(each.deviation.name, each.deviation.meaning);
+  section.paragraphs.emplace_back(
+      "Changes are those of the field as the scene's kernel shows it, root mean square over the samples, "
+      "relative "
+      "to the field. What is by photons here is by few of them; catoptric sensitivity takes as many as the "
+      "scene "
+      "says.");
+  return section;
+}
+
 Table derivative_table(const design::Scene& scene, const design::Sensitivity& sensitivity) {
   Table table{{{"r", std::string(symbol(scene.unit))},
                {"field", std::string(irradiance_unit(scene.source.quantity))}},
@@ -198,12 +219,8 @@ WrittenFiles write_sensitivity(const design::Scene& scene, const design::Sensiti
   folder.text("sensitivity.json", json_text(sensitivity_json(scene, sensitivity)));
   folder.table("sensitivity.csv", tolerance_table(sensitivity));
   folder.table("derivatives.csv", derivative_table(scene, sensitivity));
-  Page page{scene.title.empty() ? scene.settings.file() : scene.title,
-            budget_sentence(sensitivity),
-            {},
-            {},
-            fmt::format("catoptric {} · seed {} · run again with: catoptric sensitivity scene.toml",
-                        version(), scene.seed)};
+  Page page = page_of(scene, "sensitivity");
+  page.subtitle = budget_sentence(sensitivity);
   page.facts = {
       {"Allowed change of the field", fmt::format("{:.3g}", sensitivity.allowed_rel)},
       {"Root mean square of the field", fmt::format("{:.5g} {}", to_w_per_m2(sensitivity.field_rms_w_per_mm2),
@@ -212,11 +229,10 @@ WrittenFiles write_sensitivity(const design::Scene& scene, const design::Sensiti
   PageSection tolerances{"Tolerances", remarks(sensitivity), {}, {{"", tolerance_table(sensitivity)}}, {}};
   for (const auto& each : sensitivity.parameters)
     tolerances.facts.emplace_back(each.deviation.name, each.deviation.meaning);
-  PageSection pictures{"What changes where", {}, {}, {}, {}};
-  for (const DrawnFigure& figure : folder.draw_all(figures(scene, sensitivity)))
-    pictures.figures.push_back(
-        {figure.caption, figure.svg, "not drawn; its data is in figures/" + figure.name + ".gp"});
-  page.sections = {tolerances, pictures};
+  const auto drawn = folder.draw_all(figures(scene, sensitivity));
+  page.sections = {std::move(tolerances),
+                   {"What changes where", {}, {}, {}, picked(drawn)},
+                   again_section(scene, "sensitivity")};
   folder.text("report.html", html_page(page));
   return folder.take();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "design/sensitivity.h"
+#include "report/html_report.h"
 #include "report/run_files.h"
 #include "report/table.h"
 
@@ -15,6 +16,9 @@ Table derivative_table(const design::Scene& scene, const design::Sensitivity& se
 
 /// What the budget says, in a sentence.
 std::string budget_sentence(const design::Sensitivity& sensitivity);
+
+/// The same for another command's page: the table's main columns, and what each deviation is.
+PageSection tolerance_section(const design::Sensitivity& sensitivity);
 
 /// `sensitivity.csv`, `derivatives.csv`, `sensitivity.json`, `scene.toml`, `report.html` and the plots.
 WrittenFiles write_sensitivity(const design::Scene& scene, const design::Sensitivity& sensitivity,

@@ -7,9 +7,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "design/illustration.h"
 #include "report/figures.h"
-#include "report/html_report.h"
+#include "report/page_parts.h"
 #include "report/result_json.h"
+#include "report/run_figures.h"
 #include "report/run_folder.h"
 
 namespace catoptric::report {
@@ -122,6 +124,14 @@ TradeFigure trade_figure(const design::Tradeoff& trade) {
   return figure;
 }
 
+/// With the digits that a measured time or error has.
+Table shown_trade_table(const design::Scene& scene, const design::Tradeoff& trade) {
+  Table table = trade_table(scene, trade);
+  for (Column& column : table.columns)
+    if (column.name.starts_with("seconds") || column.name.starts_with("error")) column.digits = 3;
+  return table;
+}
+
 }  // namespace
 
 Table trade_table(const design::Scene& scene, const design::Tradeoff& trade) {
@@ -184,14 +194,13 @@ WrittenFiles write_tradeoff(const design::Scene& scene, const design::Tradeoff& 
   folder.text("scene.toml", design::scene_text(scene));
   folder.text("tradeoff.json", json_text(trade_json(scene, trade)));
   folder.table("tradeoff.csv", trade_table(scene, trade));
-  const auto figures =
-      folder.draw_all({{"tradeoff", "Time against error", trade_script(trade_figure(trade))}});
-  Page page{scene.title.empty() ? scene.settings.file() : scene.title,
-            trade.sentence,
-            {},
-            {},
-            fmt::format("catoptric {} · seed {} · run again with: catoptric tradeoff scene.toml", version(),
-                        scene.seed)};
+  const design::Candidate mirror = design::start_candidate(scene);
+  const auto figures = folder.draw_all(
+      {{"tradeoff", "Time of one evaluation against its error; the line is what no other setting beats.",
+        trade_script(trade_figure(trade))},
+       mirror_picture(scene, mirror.profile, mirror.source)});
+  Page page = page_of(scene, "tradeoff");
+  page.subtitle = trade.sentence;
   page.facts = {
       {"Truth", fmt::format("{} (relative error {:.2g})", trade.reference, trade.reference_error_rel)},
       {"Root mean square of the field",
@@ -199,18 +208,23 @@ WrittenFiles write_tradeoff(const design::Scene& scene, const design::Tradeoff& 
       {"Machine", trade.machine},
       {"Settings", fmt::format("{} measured, {} left out", trade.rows.size(), trade.left_out.size())},
       {"Time", fmt::format("{:.1f} s", trade.seconds)}};
-  PageSection picture{"Time against error", {}, {}, {}, {}};
-  for (const DrawnFigure& figure : figures)
-    picture.figures.push_back(
-        {figure.caption, figure.svg, "not drawn; its data is in figures/" + figure.name + ".gp"});
-  page.sections = {picture,
-                   {"Settings that no other beats",
-                    {"An error is the root mean square over the samples against the truth, relative to the "
-                     "field's root mean square; of several seeds their root mean square."},
-                    {},
-                    {{"", front_table(scene, trade)}},
-                    {}},
-                   {"All settings", trade.left_out, {}, {{"", trade_table(scene, trade)}}, {}}};
+  const std::size_t settings = trade.rows.size();
+  page.sections = {
+      {"Time against error", {}, {}, {}, picked(figures, {"tradeoff"})},
+      {"Settings that no other beats",
+       {"An error is the root mean square over the samples against the truth, relative to the field's root "
+        "mean "
+        "square; of several seeds their root mean square."},
+       {},
+       {{"", front_table(scene, trade)}},
+       {}},
+      {"All settings",
+       trade.left_out,
+       {},
+       {{"", shown_trade_table(scene, trade), fmt::format("All {} settings measured", settings)}},
+       {}},
+      mirror_section(scene, mirror.profile, mirror.source, design::shown_paths(scene), figures),
+      again_section(scene, "tradeoff")};
   folder.text("report.html", html_page(page));
   return folder.take();
 }

@@ -117,6 +117,38 @@ TEST_CASE("a radial cut draws bands where there is noise") {
   CHECK(count(svg, "fill-opacity") >= 1);
 }
 
+TEST_CASE("a band lies where the curve would without its bias, and is named where it has a name") {
+  RadialCutFigure figure{"Cut", "cm", "illuminance", "lx", {}};
+  figure.curves = {{"total", {0, 1}, {2, 1}, {0.1, 0.2}, CurveRole::obtained, {-0.5, 0.25}, "95 % interval"}};
+  const std::string script = radial_cut_script(figure);
+  CHECK(script.find("0 2 0.1 -0.5\n1 1 0.2 0.25\n") != std::string::npos);
+  CHECK(count(drawn(script), ">95 % interval<") == 1);
+  figure.curves[0].band_shift.pop_back();
+  CHECK_THROWS_AS(radial_cut_script(figure), InputError);
+}
+
+TEST_CASE("a polar diagram has both sides of the axis, circles over the greatest value and its unit") {
+  PolarFigure figure{"Intensity", "intensity (cd)", {}};
+  figure.curves = {{"C0, C180", {-90, 0, 90}, {10, 40, 20}}, {"C90, C270", {-90, 0, 90}, {nan_value, 40, 0}}};
+  const std::string script = polar_script(figure);
+  CHECK(script.find("rrange [0:42]") != std::string::npos);
+  CHECK(script.find("-90 10\n0 40\n90 20\n") != std::string::npos);
+  const std::string svg = drawn(script);
+  for (const char* text : {">intensity (cd)<", ">C0, C180<", ">0°<", ">180°<"}) CHECK(count(svg, text) == 1);
+  CHECK(count(svg, ">90°<") == 2);
+  figure.curves = {{"dark", {0, 180}, {0, 0}}};
+  drawn(polar_script(figure));
+}
+
+TEST_CASE("curves that are alike are told apart by dashes or shapes, not by colour alone") {
+  ConvergenceFigure figure{"Convergence", "RMSE", {{"a", {1}, {1}}, {"b", {1}, {2}}}};
+  const std::string script = convergence_script(figure);
+  CHECK(script.find("pt 7 ") != std::string::npos);
+  CHECK(script.find("pt 5 ") != std::string::npos);
+  CHECK(script.find("dt 1 ") != std::string::npos);
+  CHECK(script.find("dt (12,6) ") != std::string::npos);
+}
+
 TEST_CASE("convergence is drawn on a logarithmic axis, zeros and infinities left out") {
   ConvergenceFigure figure{"Convergence", "RMSE [W/m²]", {}};
   const double infinity = std::numeric_limits<double>::infinity();

@@ -95,6 +95,46 @@ TEST_CASE("user text is escaped everywhere, and braces are no template") {
   CHECK(html.find('\xff') == std::string::npos);
 }
 
+TEST_CASE("a listing keeps its lines and is only text, and a link leads to no other place") {
+  PageSection section{"h", {}, {}, {}, {}};
+  section.listings.push_back({"scene.toml", "title = \"</pre><script>\"\n[source]\n"});
+  section.links = {{"Run a", "javascript:alert(1)/report.html"}, {"Run b", "b & \"c\"/report.html"}};
+  Page with{"t", "", {}, {section}, ""};
+  const std::string html = html_page(with);
+  CHECK(count(html, "<pre>title = &quot;&lt;/pre&gt;&lt;script&gt;&quot;\n[source]\n</pre>") == 1);
+  CHECK(count(html, "href=\"./javascript%3Aalert%281%29/report.html\"") == 1);
+  CHECK(count(html, "href=\"./b%20%26%20%22c%22/report.html\"") == 1);
+}
+
+TEST_CASE("a view in space brings its library, and text in its data ends no script") {
+  Page with = page();
+  with.sections[0].view = View3d{};
+  with.sections[0].view->generatrix = {{0, 10}, {10, 5}};
+  with.sections[0].view->sources = {{"</script><!--<script>", {0, 0, 5}, {0, 0, 1}, {1, 0, 0}}};
+  with.sections[0].view->caption = "The <mirror>";
+  const std::string html = html_page(with);
+  CHECK(count(html, "script-src 'nonce-catoptric'") == 1);
+  CHECK(count(html, "<script") == 4);  // data, library, mouse, view
+  CHECK(count(html, "</script") == 4);
+  CHECK(count(html, "\"mirror\":[[0.0,10.0],[10.0,5.0]]") == 1);
+  CHECK(count(html, "OrbitControls = function") == 1);
+  CHECK(count(html, "Permission is hereby granted, free of charge") == 1);
+  CHECK(count(html, "<figcaption>The &lt;mirror&gt;</figcaption>") == 1);
+  CHECK(count(html_page(page()), "<script") == 0);
+}
+
+TEST_CASE("a long table can be folded, and a page of many parts has contents") {
+  Page with = page();
+  with.sections[0].tables[0].folded = "All 2 rows";
+  with.sections.push_back({"Second", {"p"}, {}, {}, {}});
+  with.sections.push_back({"Third", {"p"}, {}, {}, {}});
+  const std::string html = html_page(with);
+  CHECK(count(html, "<details><summary>All 2 rows</summary>") == 1);
+  CHECK(count(html, "<a href=\"#part2\">Second</a>") == 1);
+  CHECK(count(html, "<section id=\"part2\">") == 1);
+  CHECK(count(html_page(page()), "<nav") == 0);
+}
+
 TEST_CASE("a page asks for nothing from anywhere") {
   const std::string html = html_page(page());
   CHECK(count(html, "default-src 'none'") == 1);

@@ -1,0 +1,142 @@
+#include "design/illustration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include "base/errors.h"
+#include "design/constraints.h"
+#include "design/designed_scene.h"
+#include "design/evaluator.h"
+#include "design/stage.h"
+
+namespace catoptric::design {
+namespace {
+
+/// Streams that nothing else uses.
+constexpr std::uint64_t illustration_stream = std::uint64_t{1} << 39;
+constexpr std::uint64_t traced_paths = 512;
+constexpr std::size_t most_paths = 24;
+constexpr std::uint64_t most_photons_from_afar = 65'536, most_replicates_from_afar = 4;
+constexpr std::uint64_t most_photons_of_a_tolerance = 20'000, most_replicates_of_a_tolerance = 4;
+constexpr int landscape_steps = 25;
+constexpr double landscape_margin = 0.2;  ///< about the path, as a share of its extent
+
+/// With less light, and by the engine that is quick.
+Scene lightened(Scene scene, std::uint64_t photons, std::uint64_t replicates) {
+  scene.model.engine = Engine::meridian;
+  scene.model.engine_asked_for = false;
+  scene.model.photons.photons = std::min(scene.model.photons.photons, photons);
+  scene.model.replicates = std::min(scene.model.replicates, replicates);
+  return scene;
+}
+
+/// Runs one part; what cannot be computed is no error of the run that it illustrates.
+void attempt(Illustration& illustration, const std::string& what, const std::function<void()>& make) {
+  try {
+    make();
+  } catch (const Error& error) {
+    illustration.left_out.push_back(fmt::format("{}: {}", what, error.what()));
+  }
+}
+
+std::vector<sim::LightPath> shown(std::vector<sim::LightPath> all) {
+  std::erase_if(all, [](const sim::LightPath& path) { return !path.met_mirror; });
+  // What arrives is what the mirror is for; what misses stands in where too little does.
+  std::stable_partition(all.begin(), all.end(),
+                        [](const sim::LightPath& path) { return path.landed_mm.has_value(); });
+  all.resize(std::min(all.size(), most_paths));
+  return all;
+}
+
+/// The path of a search over its own variables; values are left out, for the landscape shows them.
+SearchPath path_of(const optim::Outcome& outcome) {
+  SearchPath path{"", "search", {}, {}, {}};
+  for (const optim::Iterate& each : outcome.history) {
+    if (!path.points.empty() && path.points.back() == each.x) continue;
+    path.points.push_back(each.x);
+    path.values.push_back(each.value < infeasible_floor ? each.value
+                                                        : std::numeric_limits<double>::quiet_NaN());
+  }
+  return path;
+}
+
+/// About the path, within the variables' bounds.
+LandscapeSpec window(const Scene& scene, const SearchPath& path) {
+  LandscapeSpec spec{{}, {}, {}, {}, {}};
+  for (std::size_t i = 0; i < scene.variables.size(); ++i) {
+    const optim::Variable& variable = scene.variables[i];
+    const auto [least, greatest] = std::minmax_element(
+        path.points.begin(), path.points.end(), [i](const auto& a, const auto& b) { return a[i] < b[i]; });
+    const double low = (*least)[i], high = (*greatest)[i];
+    const double margin = std::max(landscape_margin * (high - low), variable.step);
+    spec.variables.push_back(variable.name);
+    spec.lower.push_back(std::max(variable.lower, low - margin));
+    spec.upper.push_back(std::min(variable.upper, high + margin));
+    spec.steps.push_back(landscape_steps);
+  }
+  return spec;
+}
+
+/// Why there is no landscape, or nothing.
+std::string landscape_objection(const Scene& scene, const DesignResult& result) {
+  if (scene.search.method == "none") return "nothing was searched";
+  if (scene.search.free != Freedom::listed || scene.variables.size() > 2 || !scene.search.refine.empty())
+    return "the search moved more than two variables";
+  if (result.plan.rung != sim::Rung::tubes)
+    return "by photons it would take longer than the search; catoptric landscape draws it";
+  return {};
+}
+
+void add_landscape(Illustration& illustration, const Scene& scene, const DesignResult& result) {
+  if (const std::string why = landscape_objection(scene, result); !why.empty()) {
+    illustration.left_out.push_back("Landscape: " + why + ".");
+    return;
+  }
+  attempt(illustration, "Landscape", [&] {
+    SearchPath path = path_of(result.search);
+    Scene drawn = scene;
+    drawn.landscape = window(scene, path);
+    illustration.landscape = run_landscape(drawn, {});
+    illustration.landscape->paths = {std::move(path)};
+  });
+}
+
+}  // namespace
+
+std::vector<sim::LightPath> shown_paths(const Scene& given) {
+  const Scene scene = lightened(given, traced_paths, 1);
+  const Stage stage(scene, start_candidate(scene));
+  sim::PhotonOptions photons = scene.model.photons;
+  photons.photons = traced_paths;
+  photons.seed = scene.seed;
+  photons.stream = illustration_stream + 1;
+  return shown(light_paths(stage.scene, photons));
+}
+
+Illustration illustrate(const Scene& scene) {
+  Illustration illustration;
+  const Scene light = lightened(scene, most_photons_from_afar, most_replicates_from_afar);
+  attempt(illustration, "Rays", [&] { illustration.paths = shown_paths(scene); });
+  attempt(illustration, "Intensity", [&] { illustration.intensity = run_intensity(light, {}); });
+  attempt(illustration, "Tolerances", [&] {
+    const Scene brief = lightened(scene, most_photons_of_a_tolerance, most_replicates_of_a_tolerance);
+    if (make_plan(brief, start_candidate(brief)).rung == sim::Rung::tubes)
+      illustration.sensitivity = run_sensitivity(brief, {});
+    else
+      illustration.left_out.emplace_back(
+          "Tolerances: by photons they would take longer than the run; catoptric sensitivity computes them "
+          "for scene.toml, or after a design for designed.toml.");
+  });
+  return illustration;
+}
+
+Illustration illustrate(const Scene& scene, const DesignResult& result) {
+  Illustration illustration = illustrate(designed_scene(scene, result.best));
+  add_landscape(illustration, scene, result);
+  return illustration;
+}
+
+}  // namespace catoptric::design
