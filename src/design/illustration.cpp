@@ -19,9 +19,11 @@ namespace {
 constexpr std::uint64_t illustration_stream = std::uint64_t{1} << 39;
 constexpr std::uint64_t traced_paths = 512;
 constexpr std::size_t most_paths = 24;
-constexpr std::uint64_t most_photons_from_afar = 65'536, most_replicates_from_afar = 4;
-constexpr std::uint64_t most_photons_of_a_tolerance = 20'000, most_replicates_of_a_tolerance = 4;
-constexpr int landscape_steps = 25;
+constexpr std::uint64_t most_photons_from_afar = 32'768, most_replicates_from_afar = 4;
+constexpr std::uint64_t most_photons_of_a_tolerance = 8192, most_replicates_of_a_tolerance = 4;
+constexpr const char* too_long_by_photons =
+    "by photons it would take longer than the search; catoptric landscape draws it";
+constexpr int landscape_steps = 21;
 constexpr double landscape_margin = 0.2;  ///< about the path, as a share of its extent
 
 /// With less light, and by the engine that is quick.
@@ -85,20 +87,34 @@ std::string landscape_objection(const Scene& scene, const DesignResult& result) 
   if (scene.search.method == "none") return "nothing was searched";
   if (scene.search.free != Freedom::listed || scene.variables.size() > 2 || !scene.search.refine.empty())
     return "the search moved more than two variables";
-  if (result.plan.rung != sim::Rung::tubes)
-    return "by photons it would take longer than the search; catoptric landscape draws it";
+  if (result.plan.rung != sim::Rung::tubes) return too_long_by_photons;
   return {};
 }
 
+/// Whether ray tubes are valid at the corners of the window too.
+bool is_for_tubes(const Scene& scene, const LandscapeSpec& spec) {
+  const SceneFamily family = family_of(scene);
+  for (const bool high_first : {false, true})
+    for (const bool high_second : {false, true}) {
+      std::vector<double> corner = high_first ? spec.upper : spec.lower;
+      if (corner.size() > 1) corner[1] = (high_second ? spec.upper : spec.lower)[1];
+      const auto candidate = family.at(corner);
+      if (candidate && make_plan(scene, *candidate).rung != sim::Rung::tubes) return false;
+    }
+  return true;
+}
+
 void add_landscape(Illustration& illustration, const Scene& scene, const DesignResult& result) {
-  if (const std::string why = landscape_objection(scene, result); !why.empty()) {
+  const auto leave_out = [&](const std::string& why) {
     illustration.left_out.push_back("Landscape: " + why + ".");
-    return;
-  }
+  };
+  if (const std::string why = landscape_objection(scene, result); !why.empty()) return leave_out(why);
   attempt(illustration, "Landscape", [&] {
     SearchPath path = path_of(result.search);
-    Scene drawn = scene;
+    // where tubes give up within the window, few photons stand in
+    Scene drawn = lightened(scene, most_photons_of_a_tolerance, 1);
     drawn.landscape = window(scene, path);
+    if (!is_for_tubes(scene, *drawn.landscape)) return leave_out(too_long_by_photons);
     illustration.landscape = run_landscape(drawn, {});
     illustration.landscape->paths = {std::move(path)};
   });

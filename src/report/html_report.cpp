@@ -49,7 +49,8 @@ data table_data(const PageTable& shown) {
     data cells = list();
     for (std::size_t i = 0; i < row.size(); ++i) {
       data cell;
-      cell.set("text", readable(row[i], table.columns[i].digits));
+      const std::string text = readable(row[i], table.columns[i].digits);
+      cell.set("text", table.columns[i].name == "unit" ? printed(text) : text);
       cell.set("number", static_cast<bool>(number[i]));
       cells << cell;
     }

@@ -157,21 +157,25 @@ Table intensity_table(const LuminaireIntensity& luminaire) {
 PageSection intensity_section(const LuminaireIntensity& luminaire, std::vector<PageFigure> figures) {
   PageSection section{"Light from afar", {}, {}, {}, std::move(figures)};
   const Units unit(luminaire);
-  section.paragraphs.push_back(
-      fmt::format("Source and mirror without the near field, by {} photons; the noise of the intensities is "
-                  "{:.2g} of them, what "
-                  "the steps of the table blur {:.2g} (root mean squares over the sphere). catoptric "
-                  "intensity takes as many "
-                  "photons as the scene says.",
-                  luminaire.photons, luminaire.noise_rel, luminaire.bias_rel));
-  if (!luminaire.remark.empty()) section.paragraphs.push_back(luminaire.remark);
+  section.paragraphs.push_back(fmt::format(
+      "Source and mirror without the near field, by {} photons: fewer than catoptric intensity takes.",
+      luminaire.photons));
   section.facts = {
       {"Leaves the luminaire", measured_text(luminaire.flux.value, luminaire.flux.noise) + " " + unit.flux},
       {"Efficiency", fmt::format("{:.3g} % of the source's {:.4g} {}", 100 * efficiency(luminaire),
-                                 luminaire.source_flux, unit.flux)},
-      {"Greatest intensity", fmt::format("{} {} at {:.3g} degrees to the axis of the beam",
+                                 luminaire.source_flux, unit.flux)}};
+  if (!luminaire.remark.empty()) {  // then peak and angles are the table's, not the lamp's
+    section.paragraphs.push_back(luminaire.remark);
+    return section;
+  }
+  section.facts.emplace_back("Noise of the intensities",
+                             fmt::format("{:.2g} %, rms", 100 * luminaire.noise_rel));
+  section.facts.emplace_back("Blur by the table's steps",
+                             fmt::format("{:.2g} %, rms", 100 * luminaire.bias_rel));
+  section.facts.emplace_back("Greatest intensity",
+                             fmt::format("{} {} at {:.3g} degrees to the axis of the beam",
                                          measured_text(luminaire.peak.value, luminaire.peak.noise),
-                                         unit.intensity, luminaire.peak_gamma_deg)}};
+                                         unit.intensity, luminaire.peak_gamma_deg));
   for (const design::BeamAngle& angle : luminaire.angles) {
     const std::string plane = luminaire.table.is_rotational() ? "" : fmt::format(", C{:g}", angle.c_deg);
     const auto text = [](const std::optional<double>& degrees) {

@@ -39,6 +39,10 @@ std::string knots_text(const Profile& profile) {
 
 }  // namespace
 
+std::string area_text(const design::Scene& scene, double mm2) {
+  return fmt::format("{:.6g} {}²", scene.to_scene_unit(scene.to_scene_unit(mm2)), symbol(scene.unit));
+}
+
 Page page_of(const design::Scene& scene, std::string_view command) {
   Page page{};
   page.title = scene.title.empty() ? scene.settings.file() : scene.title;
@@ -71,7 +75,7 @@ PageSection mirror_section(const design::Scene& scene, const Profile& profile,
   section.view = view_of(scene, profile, source, paths);
   section.facts = {{"Rim radius", length_text(scene, profile.at(profile.last_parameter()).r_mm)},
                    {"Depth", length_text(scene, profile.z_max_mm() - profile.z_min_mm())},
-                   {"Area", fmt::format("{:.6g} mm²", profile.area_mm2())},
+                   {"Area", area_text(scene, profile.area_mm2())},
                    {"Mass", mass_text(scene, profile)},
                    {"Degree", fmt::format("{}", profile.degree())},
                    {"Knots", knots_text(profile)}};
@@ -82,10 +86,9 @@ PageSection mirror_section(const design::Scene& scene, const Profile& profile,
 
 PageSection again_section(const design::Scene& scene, std::string_view command) {
   PageSection section{"To run it again", {}, {}, {}, {}};
-  section.facts = {
-      {"Command", fmt::format("catoptric {} scene.toml", command)},
-      {"Version", version()},
-      {"Seed", fmt::format("{}; results are the same bits for any number of threads", scene.seed)}};
+  section.facts = {{"Command", fmt::format("catoptric {} scene.toml", command)},
+                   {"Version", version()},
+                   {"Seed", fmt::format("{}", scene.seed)}};
   section.listings = {{"scene.toml: the scene with all defaults written out", design::scene_text(scene)}};
   return section;
 }

@@ -18,6 +18,9 @@ struct DrawnFigure {
 /// A page with what all of them have alike: title, origin, footer.
 Page page_of(const design::Scene& scene, std::string_view command);
 
+/// An area in the square of the scene's unit.
+std::string area_text(const design::Scene& scene, double mm2);
+
 /// The figures of these names, in their order; those that there are not are left out.
 std::vector<PageFigure> picked(const std::vector<DrawnFigure>& figures,
                                const std::vector<std::string_view>& names);

@@ -124,8 +124,10 @@ Table energy_table(const design::Scene& scene, const design::Judged& judged) {
   add("  missed it", energy.missed_w);
   add("  absorbed by it", energy.absorbed_w);
   if (scene.surroundings) add("  stopped by objects about it", energy.stopped_w);
-  add("  received by the near field", energy.received_w);
-  add("  escaped past the near field", energy.escaped_w);
+  add(scene.fields.empty() ? "  received by the near field"
+                           : "  received by the near field and further fields",
+      energy.received_w);
+  add(scene.fields.empty() ? "  escaped past the near field" : "  escaped", energy.escaped_w);
   if (energy.cut_off_w > 0) add("  given up after too many bounces", energy.cut_off_w);
   return table;
 }

@@ -14,10 +14,10 @@ inline constexpr const char* page_template = R"html(<!DOCTYPE html>
 <title>{{title}}</title>
 <style>
 :root { color-scheme: light dark; --ink: #1c1c1c; --paper: #ffffff; --soft: #5c5c5c; --line: #d0d0d0; --card: #f5f5f3;
-  --plot: #ffffff; --grid: #d4d4d4; --accent: #0072b2; }
+  --plot: #ffffff; --grid: #d4d4d4; --accent: #0072b2; --blue: #0072b2; }
 @media (prefers-color-scheme: dark) {
   :root { --ink: #e8e8e6; --paper: #17181a; --soft: #a9a9a6; --line: #404246; --card: #222427; --plot: #222427;
-    --grid: #44474c; --accent: #56b4e9; }
+    --grid: #44474c; --accent: #56b4e9; --blue: #3a9bd8; }
 }
 html { scroll-padding-top: 3.2rem; }
 body { margin: 0 auto; max-width: 60rem; padding: 1.5rem 1rem 3rem; color: var(--ink); background: var(--paper);
@@ -30,8 +30,8 @@ p { max-width: 45rem; overflow-wrap: anywhere; }
 .verdict { font-size: 1.1rem; margin: 0.4rem 0 1rem; }
 a { color: var(--accent); }
 nav { position: sticky; top: 0; z-index: 1; background: var(--paper); border-bottom: 1px solid var(--line);
-  padding: 0.4rem 0; white-space: nowrap; overflow-x: auto; font-size: 0.92rem; }
-nav a { margin-right: 1.1rem; text-decoration: none; }
+  padding: 0.4rem 0; font-size: 0.92rem; }
+nav a { margin-right: 1.1rem; text-decoration: none; white-space: nowrap; display: inline-block; }
 dl { display: grid; grid-template-columns: minmax(9rem, max-content) 1fr; gap: 0.15rem 1.2rem; margin: 0.8rem 0; }
 dt { color: var(--soft); }
 dd { margin: 0; overflow-wrap: anywhere; font-variant-numeric: tabular-nums; }
@@ -54,7 +54,9 @@ figcaption { max-width: 45rem; }
 .picture svg [fill='rgb(64,64,64)'] { fill: var(--ink); }
 .picture svg [stroke='rgb(  0,   0,   0)'], .picture svg [stroke='black'], .picture svg [stroke='rgb( 64,  64,  64)'] { stroke: var(--ink); }
 .picture svg [stroke='rgb(212, 212, 212)'] { stroke: var(--grid); }
-.picture svg [color='black'] { color: var(--ink); }
+.picture svg [stroke='rgb(  0, 114, 178)'] { stroke: var(--blue); color: var(--blue); }
+.picture svg [color='rgb(  0, 114, 178)'] { color: var(--blue); }
+.picture svg [color='black'], .picture svg [color='rgb(  0,   0,   0)'] { color: var(--ink); }
 #view-3d { background: var(--plot); border: 1px solid var(--line); border-radius: 4px; overflow: hidden; }
 #view-3d canvas { display: block; cursor: grab; }
 #view-3d img { display: none; }
@@ -67,7 +69,7 @@ footer { margin-top: 3rem; border-top: 1px solid var(--line); padding-top: 0.6re
 }
 @media print {
   :root { color-scheme: light; --ink: #000000; --paper: #ffffff; --soft: #404040; --line: #b0b0b0; --card: #ffffff;
-    --plot: #ffffff; --grid: #d4d4d4; --accent: #000000; }
+    --plot: #ffffff; --grid: #d4d4d4; --accent: #000000; --blue: #0072b2; }
   body { max-width: none; padding: 0; font-size: 10pt; }
   nav { display: none; }
   h2 { break-after: avoid; }

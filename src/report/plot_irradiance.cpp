@@ -27,7 +27,7 @@ Scale colour_scale(const IrradianceFigure& figure) {
 
 std::string axes(const IrradianceFigure& figure) {
   const Scale scale = colour_scale(figure);
-  return fmt::format("set xlabel {}\nset ylabel {}\nset cblabel {}\n",
+  return fmt::format("set xlabel {}\nset ylabel {}\nset cblabel {} offset char 1.2,0\n",
                      gnuplot_text(axis_label("x", figure.length_unit)),
                      gnuplot_text(axis_label("y", figure.length_unit)),
                      gnuplot_text(axis_label(figure.irradiance_name, figure.irradiance_unit))) +

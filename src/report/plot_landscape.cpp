@@ -64,11 +64,17 @@ std::string contour_levels(const LandscapeFigure& figure, Range range) {
 }
 
 std::string axes(const LandscapeFigure& figure, Range range) {
-  std::string text =
-      fmt::format("set xlabel {}\nset ylabel {}\nset cblabel {}\n", gnuplot_text(figure.x_label),
-                  gnuplot_text(figure.y_label), gnuplot_text(figure.value_label));
+  std::string text = fmt::format("set xlabel {}\nset ylabel {}\nset cblabel {} offset char 1.2,0\n",
+                                 gnuplot_text(figure.x_label), gnuplot_text(figure.y_label),
+                                 gnuplot_text(figure.value_label));
   text += viridis_palette();
-  if (figure.scale == AxisScale::logarithmic) text += "set logscale cb 10\nset logscale z 10\n";
+  if (figure.scale == AxisScale::logarithmic) {
+    text += "set logscale cb 10\nset logscale z 10\n";
+    // of less than a decade gnuplot names no more than one value
+    if (const std::string levels = contour_levels(figure, range);
+        range.greatest < 10 * range.least && !levels.empty())
+      text += "set cbtics (" + levels + ")\n";
+  }
   text += fmt::format("set cbrange [{}:{}]\nset zrange [{}:{}]\n", plot_number(range.least),
                       plot_number(range.greatest), plot_number(range.least), plot_number(range.greatest));
   text += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", plot_number(figure.objective.x.front()),
@@ -89,8 +95,8 @@ GridField shown(const LandscapeFigure& figure, Range range) {
 std::vector<std::string> mark_legend(const std::vector<Mark>& marks) {
   std::vector<std::string> entries;
   for (const auto& [kind, entry] :
-       {std::pair{MarkKind::start, "keyentry with points lc rgb '#000000' pt 7 ps 1.0 title 'start'"},
-        {MarkKind::end, "keyentry with points lc rgb '#000000' pt 5 ps 0.9 title 'end'"}})
+       {std::pair{MarkKind::start, "keyentry with points lc rgb '#808080' pt 7 ps 1.0 title 'start'"},
+        {MarkKind::end, "keyentry with points lc rgb '#808080' pt 5 ps 0.9 title 'end'"}})
     if (std::any_of(marks.begin(), marks.end(), [&](const Mark& mark) { return mark.kind == kind; }))
       entries.emplace_back(entry);
   return entries;
@@ -119,14 +125,15 @@ std::string landscape_contour_script(const LandscapeFigure& figure) {
     parts.push_back("$lines using 1:2 with lines lc rgb '#ffffff' lw 0.8 notitle");
     const std::size_t apart = std::max<std::size_t>(20, field.x.size() + field.y.size());
     parts.push_back(
-        fmt::format("$lines using 1:2:(sprintf('%g',$3)) every {}::{} with labels boxed font ',11' notitle",
+        fmt::format("$lines using 1:2:(sprintf('%g',$3)) every {}::{} with labels boxed font ',11' "
+                    "textcolor rgb '#010101' notitle",
                     apart, apart / 4));
   }
   for (std::size_t i = 0; i < figure.paths.size(); ++i) {
     const Curve& path = figure.paths[i];
     script += data_block(fmt::format("path{}", i), {&path.x, &path.y});
     parts.push_back(fmt::format(
-        "$path{} using 1:2 with linespoints lc rgb '#000000' lw 4 pt {} ps 0.7 notitle", i, point_shape(i)));
+        "$path{} using 1:2 with linespoints lc rgb '#010101' lw 4 pt {} ps 0.7 notitle", i, point_shape(i)));
     parts.push_back(fmt::format("$path{} using 1:2 with linespoints {} pt {} ps 0.45 title {}", i,
                                 line_look(path.role, i), point_shape(i), gnuplot_text(path.label)));
   }

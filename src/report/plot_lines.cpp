@@ -8,6 +8,9 @@
 namespace catoptric::report {
 namespace {
 
+/// Where it lies on no curve.
+constexpr const char* key_below = "set key outside below horizontal font ',12' samplen 3 spacing 1.1\n";
+
 /// A logarithmic axis has no place for numbers that are not above 0.
 std::vector<double> on_scale(std::vector<double> values, AxisScale scale) {
   if (scale == AxisScale::logarithmic)
@@ -43,7 +46,7 @@ std::string radial_cut_script(const RadialCutFigure& figure) {
   std::string script =
       preamble(figure.title) + labels(axis_label("distance from the axis", figure.length_unit),
                                       axis_label(figure.irradiance_name, figure.irradiance_unit));
-  script += "set yrange [0:*]\nset autoscale xfix\nset key top right spacing 1.1\n";
+  script += std::string("set yrange [0:*]\nset autoscale xfix\n") + key_below;
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < figure.curves.size(); ++i) add_band(figure.curves[i], i, script, parts);
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {
@@ -57,7 +60,7 @@ std::string radial_cut_script(const RadialCutFigure& figure) {
 
 std::string convergence_script(const ConvergenceFigure& figure) {
   std::string script = preamble(figure.title) + labels(figure.effort_label, figure.objective_label);
-  script += log_axis('y', figure.scale) + "set key top right spacing 1.1\nset xrange [0:*]\n";
+  script += log_axis('y', figure.scale) + key_below + "set xrange [0:*]\n";
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {
     const Curve& curve = figure.curves[i];
@@ -66,8 +69,9 @@ std::string convergence_script(const ConvergenceFigure& figure) {
     // the best value stands until a better one is found
     parts.push_back(fmt::format("$curve{} using 1:2 with steps {} title {}", i, line_look(curve.role, i),
                                 gnuplot_text(curve.label)));
-    parts.push_back(fmt::format("$curve{} using 1:2 with points lc rgb '{}' pt {} ps 0.6 notitle", i,
-                                line_colour(curve.role, i), point_shape(i)));
+    constexpr std::size_t many = 40;  // points would hide the line
+    parts.push_back(fmt::format("$curve{} using 1:2 with points lc rgb '{}' pt {} ps {} notitle", i,
+                                line_colour(curve.role, i), point_shape(i), y.size() > many ? 0.35 : 0.6));
   }
   return script + plot_command("plot", parts);
 }
@@ -76,8 +80,7 @@ std::string line_script(const LineFigure& figure) {
   std::string script = preamble(figure.title) + labels(figure.x_label, figure.y_label);
   script += log_axis('x', figure.x_scale) + log_axis('y', figure.y_scale) + "set autoscale xfix\n";
   constexpr std::size_t few = 4;  // more labels would lie on the lines
-  script += figure.curves.size() > few ? "set key outside below horizontal font ',12' samplen 2\n"
-                                       : "set key top right spacing 1.1\n";
+  script += figure.curves.size() > few ? key_below : "set key top right spacing 1.1\n";
   if (figure.y_scale == AxisScale::linear) script += "set offsets graph 0, graph 0, graph 0.05, graph 0.02\n";
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {

@@ -176,7 +176,7 @@ std::string mark_label(const Mark& mark, std::string_view place) {
   for (double right : {-0.15, 0.0, 0.15})
     for (double up : {-0.07, 0.0, 0.07}) name("#ffffff", right, up);
   name("#000000", 0, 0);
-  return text + fmt::format("set label at {} front point lc rgb '#000000' {}\n", place, symbol);
+  return text + fmt::format("set label at {} front point lc rgb '#010101' {}\n", place, symbol);
 }
 
 std::string surface_layout(const SurfaceView& view) {

@@ -22,7 +22,7 @@ std::vector<NamedFigure> with_illustration(const design::Scene& scene, std::vect
 }  // namespace
 
 std::uint64_t room_for(const design::Scene& scene) {
-  // Measured: 6.4 MB of plots, page and exchange files, and 140 bytes a sample.
+  // Measured: 7.3 MB of plots, page and exchange files, and 140 bytes a sample.
   constexpr std::uint64_t files = 13'000'000, of_a_sample = 300;
   std::uint64_t samples = scene.samples;
   for (const design::FieldSpec& field : scene.fields) samples += field.samples;

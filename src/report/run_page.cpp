@@ -40,9 +40,9 @@ std::vector<Fact> measure_facts(const design::Scene& scene, const design::Judgem
                     scene.model.photons.sampler == sim::Sampler::sobol ? "Sobol, scrambled" : "random",
                     name(judgement.rung)));
   facts.emplace_back("Kernel", kernel_text(scene, judgement));
-  facts.emplace_back(
-      "Samples", fmt::format("{}; near field of {:.4g} mm²", samples_text(scene, judgement.reflected.size()),
-                             scene.near_field.area_mm2()));
+  facts.emplace_back("Samples",
+                     fmt::format("{}; near field of {}", samples_text(scene, judgement.reflected.size()),
+                                 area_text(scene, scene.near_field.area_mm2())));
   const std::string irradiance = printed(irradiance_unit(scene.source.quantity));
   facts.emplace_back("Noise of one evaluation, rms",
                      fmt::format("{:.2g} {}", to_w_per_m2(judgement.field_noise_w_per_mm2), irradiance));
@@ -53,20 +53,18 @@ std::vector<Fact> measure_facts(const design::Scene& scene, const design::Judgem
 
 PageSection light_section(const design::Scene& scene, const design::Judged& judged,
                           const std::vector<DrawnFigure>& figures) {
-  PageSection section{
-      fmt::format("{} on the near field",
-                  scene.source.quantity == LightQuantity::luminous ? "Illuminance" : "Irradiance"),
-      scene.target.notes,
-      {},
-      {{"", field_table(scene, judged.judgement)}},
-      picked(figures, {"radial", "irradiance-result", "irradiance-target", "irradiance-start"})};
-  return section;
+  const bool luminous = scene.source.quantity == LightQuantity::luminous;
+  return {luminous ? "Illuminance on the near field" : "Irradiance on the near field",
+          scene.target.notes,
+          {},
+          {{"", field_table(scene, judged.judgement)}},
+          picked(figures, {"radial", "irradiance-result", "irradiance-target", "irradiance-start"})};
 }
 
 PageSection figures_section(const design::Scene& scene, const design::Judged& found,
                             const design::Judged* start) {
   PageSection section{
-      "Figures with noise and bias",
+      "Noise and bias",
       {"Noise is the standard error over independent replicates. Bias is what the kernel's blur and "
        "the photons' noise add to a figure: the truth is near the figure less its bias."},
       measure_facts(scene, found.judgement),
@@ -103,7 +101,7 @@ std::string left_out_of_the_model(const design::Scene& scene) {
 /// What the model holds and what it does not, so that nobody reads more into the figures.
 PageSection model_section(const design::Scene& scene, const sim::Plan& plan,
                           const design::Judgement& judgement, const std::vector<std::string>& not_shown) {
-  PageSection section{"What was modelled, and what was not", {}, {}, {}, {}};
+  PageSection section{"What was modelled", {}, {}, {}, {}};
   for (const sim::Finding& finding : plan.findings)
     section.facts.emplace_back(finding.feature, finding.found + ": " + finding.consequence);
   section.paragraphs = {
@@ -209,7 +207,12 @@ std::string study_page(const design::Study& study, const std::vector<StudyRow>& 
                             study.designs ? "design" : "simulate", version());
   page.facts = {{"Runs", fmt::format("{}", study.runs.size())}, {"Time", fmt::format("{:.1f} s", seconds)}};
   PageSection table{"Runs", {"One row per run; figures from elsewhere stand beside ours."}, {}, {}, {}};
-  table.tables = {{"", study_table(rows)}};
+  Table shown = study_table(rows);
+  for (Column& column : shown.columns) {
+    const bool is_error = column.name.starts_with("noise") || column.name.starts_with("bias");
+    column.digits = is_error ? 2 : 5;
+  }
+  table.tables = {{"", std::move(shown)}};
   PageSection reports{
       "The runs' own reports", {"Each run has a folder of its own with its files."}, {}, {}, {}};
   for (const StudyRow& row : rows) {

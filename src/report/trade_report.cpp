@@ -209,6 +209,8 @@ WrittenFiles write_tradeoff(const design::Scene& scene, const design::Tradeoff& 
       {"Settings", fmt::format("{} measured, {} left out", trade.rows.size(), trade.left_out.size())},
       {"Time", fmt::format("{:.1f} s", trade.seconds)}};
   const std::size_t settings = trade.rows.size();
+  Table left_out{{{"setting", ""}}, {}};
+  for (const std::string& sentence : trade.left_out) left_out.rows.push_back({sentence});
   page.sections = {
       {"Time against error", {}, {}, {}, picked(figures, {"tradeoff"})},
       {"Settings that no other beats",
@@ -219,9 +221,10 @@ WrittenFiles write_tradeoff(const design::Scene& scene, const design::Tradeoff& 
        {{"", front_table(scene, trade)}},
        {}},
       {"All settings",
-       trade.left_out,
        {},
-       {{"", shown_trade_table(scene, trade), fmt::format("All {} settings measured", settings)}},
+       {},
+       {{"", shown_trade_table(scene, trade), fmt::format("All {} settings measured", settings)},
+        {"", std::move(left_out), fmt::format("{} settings left out, and why", trade.left_out.size())}},
        {}},
       mirror_section(scene, mirror.profile, mirror.source, design::shown_paths(scene), figures),
       again_section(scene, "tradeoff")};

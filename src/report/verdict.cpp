@@ -102,9 +102,7 @@ std::string verdict(const std::vector<StudyRow>& rows) {
   std::string text = fmt::format("{} runs", rows.size());
   if (designs > 0) text += fmt::format(", {} of {} designs converged", converged, designs);
   if (failed > 0) text += fmt::format(", {} failed", failed);
-  if (best)
-    text +=
-        fmt::format(". The least objective has run {}: {}", best->run.name, objective_name_and_value(*best));
+  if (best) text += fmt::format(". The best is run {}: {}", best->run.name, objective_name_and_value(*best));
   return text + ".";
 }
 

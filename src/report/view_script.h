@@ -79,7 +79,7 @@ inline constexpr const char* view_script = R"js((function () {
         new THREE.Matrix4().makeBasis(new THREE.Vector3().crossVectors(y, z), y, z));
     object.position.copy(vector(source.position));
   }
-  const z_axis = [data.center[2] - 1.1 * data.radius, data.center[2] + 1.1 * data.radius];
+  const z_axis = [data.center[2] - 0.75 * data.radius, data.center[2] + 0.75 * data.radius];
   lines([[0, 0, z_axis[0]], [0, 0, z_axis[1]]], dashed(0x7a7a7a));
 
   const camera = new THREE.PerspectiveCamera(30, 1, data.radius / 100, data.radius * 100);
@@ -96,7 +96,7 @@ inline constexpr const char* view_script = R"js((function () {
   canvas.addEventListener("pointerleave", () => { controls.enableZoom = false; });
   function stand() {
     const narrow = Math.min(1, camera.aspect);
-    const distance = data.radius / Math.sin(Math.PI / 12) / narrow;
+    const distance = 0.8 * data.radius / Math.sin(Math.PI / 12) / narrow;
     controls.target.copy(vector(data.center));
     camera.position.copy(controls.target).add(new THREE.Vector3(0.55, -0.78, data.view_up).normalize().multiplyScalar(distance));
     controls.update();
