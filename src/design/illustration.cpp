@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -115,8 +116,12 @@ void add_landscape(Illustration& illustration, const Scene& scene, const DesignR
     Scene drawn = lightened(scene, most_photons_of_a_tolerance, 1);
     drawn.landscape = window(scene, path);
     if (!is_for_tubes(scene, *drawn.landscape)) return leave_out(too_long_by_photons);
-    illustration.landscape = run_landscape(drawn, {});
-    illustration.landscape->paths = {std::move(path)};
+    Landscape found = run_landscape(drawn, {});
+    const bool is_empty = std::none_of(found.objective.begin(), found.objective.end(),
+                                       [](double value) { return std::isfinite(value); });
+    if (is_empty) return leave_out("no mirror about the search's path keeps the constraints");
+    found.paths = {std::move(path)};
+    illustration.landscape = std::move(found);
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "base/units.h"
 #include "design/metrics.h"
@@ -74,8 +75,9 @@ double rounded_to_noise(double value, double noise) {
   if (!is_noisy(noise) || !std::isfinite(value)) return value;
   const int place = last_place(noise);
   if (place < -300 || place > 300) return value;
-  return std::stod(place < 0 ? fmt::format("{:.{}f}", value, -place)
-                             : fmt::format("{:.0f}e{}", value / std::pow(10, place), place));
+  const std::string digits = place < 0 ? fmt::format("{:.{}f}", value, -place)
+                                       : fmt::format("{:.0f}e{}", value / std::pow(10, place), place);
+  return std::strtod(digits.c_str(), nullptr);
 }
 
 std::string measured_text(double value, double noise) {

@@ -83,6 +83,7 @@ footer { margin-top: 3rem; border-top: 1px solid var(--line); padding-top: 0.6re
   table { font-size: 8pt; }
   th { white-space: normal; }
   th, td { padding: 0.1rem 0.4rem; }
+  .listing::details-content { content-visibility: visible; height: auto; display: block; }
   pre { white-space: pre-wrap; font-size: 7.5pt; padding: 0; }
 }
 </style>
@@ -123,7 +124,7 @@ footer { margin-top: 3rem; border-top: 1px solid var(--line); padding-top: 0.6re
 {{/figures}}{{#has_links}}<ul>
 {{#links}}<li><a href="{{address}}">{{words}}</a></li>
 {{/links}}</ul>
-{{/has_links}}{{#listings}}<details><summary>{{caption}}</summary>
+{{/has_links}}{{#listings}}<details class="listing"><summary>{{caption}}</summary>
 <pre>{{text}}</pre>
 </details>
 {{/listings}}</section>

@@ -11,6 +11,7 @@ namespace catoptric::report {
 namespace {
 
 constexpr double most_sizes_away = 4;  ///< a mirror beside a field farther away would be a speck
+constexpr std::size_t most_corners = 40;
 constexpr int points_of_a_span = 24, points_of_a_round = 72;
 
 using Box = Eigen::AlignedBox3d;
@@ -83,6 +84,10 @@ std::vector<ViewedSource> viewed(const design::SourceSpec& source, const Vector3
 /// A photon's way, on beyond its last corner to where it lands, or to the end of what is seen.
 Polyline way_of(const sim::LightPath& path, const Vector3& center_mm, double radius_mm) {
   Polyline way = path.corners_mm;
+  if (way.size() > most_corners) {  // light caught in a cavity
+    way.resize(most_corners);
+    return way;
+  }
   if (path.leaves_towards) {
     const Vector3 last = way.back(), towards = *path.leaves_towards;
     const bool lands_now = path.landed_mm && (*path.landed_mm - last).dot(towards) > 0 &&

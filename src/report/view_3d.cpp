@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 namespace catoptric::report {
@@ -13,7 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double rounded(double value) { return std::stod(fmt::format("{:.5g}", value)); }
+/// Not by stod, which throws at numbers too small to be normal.
+double rounded(double value) { return std::strtod(fmt::format("{:.5g}", value).c_str(), nullptr); }
 
 template <typename Vector>
 Json place(const Vector& point) {

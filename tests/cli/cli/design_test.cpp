@@ -145,7 +145,11 @@ TEST_CASE(
   CHECK(yes["constraints"][0]["met"] == true);
   CHECK(yes["start"]["constraints"][0]["met"] == false);
   CHECK(yes["start"]["constraints"][0]["violation"].get<double>() == Approx(0.5));
-  CHECK_THAT(read_whole(folder / "kept" / "report.html"), Contains("rim_radius_max"));
+  CHECK_THAT(read_whole(folder / "kept" / "report.html"),
+             Contains("rim_radius_max") && Contains("Converged. With the mirror found"));
+  CHECK_THAT(read_whole(folder / "broken" / "report.html"),
+             Contains("The constraints are broken: this mirror is not what was asked for.") &&
+                 Contains("height_max is 5 cm, at most 4.5 is allowed"));
   // the rank of the start, which breaks the constraint, is no figure to be shown
   CHECK_THAT(read_whole(folder / "kept" / "convergence.csv"), Contains("\n0,0,1,1,start,,1.6,9\n"));
   for (const char* out : {"kept", "broken"})
