@@ -21,7 +21,7 @@ constexpr std::uint64_t illustration_stream = std::uint64_t{1} << 39;
 constexpr std::uint64_t traced_paths = 512;
 constexpr std::size_t most_paths = 24;
 constexpr std::uint64_t most_photons_from_afar = 32'768, most_replicates_from_afar = 4;
-constexpr std::uint64_t most_photons_of_a_tolerance = 8192, most_replicates_of_a_tolerance = 4;
+constexpr std::uint64_t most_photons_of_a_tolerance = 20'000, most_replicates_of_a_tolerance = 4;
 constexpr const char* too_long_by_photons =
     "by photons it would take longer than the search; catoptric landscape draws it";
 constexpr int landscape_steps = 21;

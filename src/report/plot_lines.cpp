@@ -9,7 +9,8 @@ namespace catoptric::report {
 namespace {
 
 /// Where it lies on no curve.
-constexpr const char* key_below = "set key outside below horizontal font ',12' samplen 3 spacing 1.1\n";
+constexpr const char* key_below =
+    "set key outside below horizontal font ',12' samplen 3 spacing 1.1\nset xlabel offset 0,0.5\n";
 
 /// A logarithmic axis has no place for numbers that are not above 0.
 std::vector<double> on_scale(std::vector<double> values, AxisScale scale) {

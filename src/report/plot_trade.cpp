@@ -10,7 +10,7 @@ std::string trade_script(const TradeFigure& figure) {
   script += fmt::format("set xlabel {} offset 0,0.5\nset ylabel {}\n", gnuplot_text(figure.x_label),
                         gnuplot_text(figure.y_label));
   script += "set logscale xy 10\nset mxtics 10\nset mytics 10\nset format '10^{%T}'\nset format '%g'\n";
-  script += "set key outside bottom center horizontal maxcols 3 spacing 1.1 font ',12'\n";
+  script += "set key outside bottom center horizontal maxcols 3 height 0.8 spacing 1.1 font ',12'\n";
   for (const double level : figure.levels)
     script += fmt::format(
         "set arrow from graph 0, first {0} to graph 1, first {0} nohead dt (4,4) lc rgb "

@@ -29,11 +29,12 @@ std::string metric_words(const design::Scene& scene) {
 }
 
 /// How the search ended, as a judgement of the mirror.
-std::string ending_words(const std::string& outcome) {
-  if (outcome == "converged") return "Converged";
+std::string ending_words(const design::Scene& scene, const std::string& outcome) {
+  if (outcome == "converged")
+    return scene.search.method == "none" ? "Nothing was searched" : "The search converged";
   if (outcome == "unsatisfied") return "The constraints are broken: this mirror is not what was asked for";
-  if (outcome == "interrupted") return "Interrupted: this is the best mirror so far";
-  return "Not converged: a better mirror may be found";
+  if (outcome == "interrupted") return "The search was interrupted: this is the best mirror so far";
+  return "The search did not converge: a better mirror may be found";
 }
 
 std::string constraint_words(const design::Judged& judged, LengthUnit unit) {
@@ -62,7 +63,7 @@ std::string figure_text(const design::Figure& figure, const std::string& unit) {
 std::string verdict(const design::Scene& scene, const design::DesignResult& result) {
   const design::Judgement& judgement = result.best.judgement;
   return fmt::format("{}. With the mirror found {} is {}; with the start it was {}.{}{}",
-                     ending_words(outcome_word(result)), metric_words(scene),
+                     ending_words(scene, outcome_word(result)), metric_words(scene),
                      objective_text(scene, judgement.objective),
                      objective_text(scene, result.start.judgement.objective),
                      constraint_words(result.best, scene.unit), accuracy_words(judgement));

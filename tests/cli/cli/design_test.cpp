@@ -146,7 +146,7 @@ TEST_CASE(
   CHECK(yes["start"]["constraints"][0]["met"] == false);
   CHECK(yes["start"]["constraints"][0]["violation"].get<double>() == Approx(0.5));
   CHECK_THAT(read_whole(folder / "kept" / "report.html"),
-             Contains("rim_radius_max") && Contains("Converged. With the mirror found"));
+             Contains("rim_radius_max") && Contains("The search converged. With the mirror found"));
   CHECK_THAT(read_whole(folder / "broken" / "report.html"),
              Contains("The constraints are broken: this mirror is not what was asked for.") &&
                  Contains("height_max is 5 cm, at most 4.5 is allowed"));
