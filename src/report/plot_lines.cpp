@@ -10,7 +10,7 @@ namespace {
 
 /// Where it lies on no curve.
 constexpr const char* key_below =
-    "set key outside below horizontal font ',12' samplen 3 spacing 1.1\nset xlabel offset 0,0.5\n";
+    "set key outside below horizontal font ',12' samplen 3 height 0.8 spacing 1.1\nset xlabel offset 0,0.5\n";
 
 /// A logarithmic axis has no place for numbers that are not above 0.
 std::vector<double> on_scale(std::vector<double> values, AxisScale scale) {

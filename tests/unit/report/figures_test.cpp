@@ -134,10 +134,20 @@ TEST_CASE("a polar diagram has both sides of the axis, circles over the greatest
   CHECK(script.find("rrange [0:40]") != std::string::npos);
   CHECK(script.find("-90 10\n0 40\n90 20\n") != std::string::npos);
   const std::string svg = drawn(script);
-  for (const char* text : {">intensity (cd)<", ">C0, C180<", ">0°<", ">180°<", ">30<", ">40<"}) CHECK(count(svg, text) == 1);
+  for (const char* text : {">intensity (cd)<", ">C0, C180<", ">0°<", ">180°<", ">30<", ">40<"})
+    CHECK(count(svg, text) == 1);
   CHECK(count(svg, ">90°<") == 2);
   figure.curves = {{"dark", {0, 180}, {0, 0}}};
   drawn(polar_script(figure));
+}
+
+TEST_CASE("a trade is drawn with its settings, its front and the accuracies asked for") {
+  TradeFigure figure{"Trade", "time (s)", "relative error", {}, {}, {0.1, 0.01}};
+  figure.groups = {{"photons", {0.01, 0.1}, {0.2, 0.02}}, {"tubes", {0.001}, {1e-6}}};
+  figure.front = {"front", {0.001}, {1e-6}};
+  const std::string svg = drawn(trade_script(figure));
+  for (const char* text : {">photons<", ">tubes<", ">front<", ">10 %<", ">1 %<", ">time (s)<"})
+    CHECK(count(svg, text) == 1);
 }
 
 TEST_CASE("curves that are alike are told apart by dashes or shapes, not by colour alone") {
