@@ -157,9 +157,10 @@ Table intensity_table(const LuminaireIntensity& luminaire) {
 PageSection intensity_section(const LuminaireIntensity& luminaire, std::vector<PageFigure> figures) {
   PageSection section{"Light from afar", {}, {}, {}, std::move(figures)};
   const Units unit(luminaire);
-  section.paragraphs.push_back(fmt::format(
-      "Source and mirror without the near field, by {} photons: fewer than catoptric intensity takes.",
-      luminaire.photons));
+  section.paragraphs.push_back(
+      fmt::format("Source and mirror without the near field, by {} photons; catoptric intensity takes as "
+                  "many as the scene says.",
+                  luminaire.photons));
   section.facts = {
       {"Leaves the luminaire", measured_text(luminaire.flux.value, luminaire.flux.noise) + " " + unit.flux},
       {"Efficiency", fmt::format("{:.3g} % of the source's {:.4g} {}", 100 * efficiency(luminaire),

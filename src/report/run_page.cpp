@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "design/constraints.h"
 #include "design/metrics.h"
 #include "report/field_report.h"
 #include "report/html_report.h"

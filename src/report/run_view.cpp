@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "base/units.h"
@@ -140,8 +141,9 @@ std::string caption(const design::Scene& scene, const View3d& view, double far_m
                     view.rays.size());
   text += view.fields.empty() ? "" : " Grey: where irradiance is asked for.";
   if (far_mm > 0)
-    text += fmt::format(" The near field, {:.4g} {} away, is too far to be drawn beside the mirror.",
-                        scene.to_scene_unit(far_mm), symbol(scene.unit));
+    text +=
+        fmt::format(" The near field, {:.4g} {} from the source, is too far to be drawn beside the mirror.",
+                    scene.to_scene_unit(far_mm), symbol(scene.unit));
   if (scene.surroundings && !scene.surroundings->objects().empty())
     text += " Objects about the mirror are not drawn, but the rays meet them.";
   return text;
@@ -177,7 +179,7 @@ View3d view_of(const design::Scene& scene, const Profile& profile, const design:
   }
   // The eye stands where the mirror is open: on the side its rim lies of its apex.
   view.from_above = profile.at(profile.last_parameter()).z_mm > profile.at(profile.first_parameter()).z_mm;
-  view.caption = caption(scene, view, far ? (scene.near_field.center_mm() - view.center).norm() : 0);
+  view.caption = caption(scene, view, far ? (scene.near_field.center_mm() - source.position_mm).norm() : 0);
   to_scene_unit(view, scene.to_scene_unit(1));
   return view;
 }

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 
 #include "base/units.h"
 #include "design/constraints.h"
@@ -19,6 +19,12 @@ std::string with_unit(const std::string& number, const std::string& unit) {
 
 std::string objective_text(const design::Scene& scene, const design::Figure& figure) {
   return with_unit(measured_text(figure.value, figure.noise), design::objective_unit(scene));
+}
+
+/// Two digits, written out where that is short.
+std::string bias_text(double bias) {
+  const double size = std::abs(bias);
+  return size >= 100 && size < 1e5 ? fmt::format("{:+.0f}", bias) : fmt::format("{:+.2g}", bias);
 }
 
 /// RMSE stands for the words that the others are.
@@ -57,7 +63,7 @@ std::string objective_name_and_value(const StudyRow& row) {
 
 std::string figure_text(const design::Figure& figure, const std::string& unit) {
   return fmt::format("{} (bias {})", with_unit(measured_text(figure.value, figure.noise), unit),
-                     with_unit(fmt::format("{:+.2g}", figure.bias), unit));
+                     with_unit(bias_text(figure.bias), unit));
 }
 
 std::string verdict(const design::Scene& scene, const design::DesignResult& result) {
