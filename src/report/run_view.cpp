@@ -7,12 +7,13 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "sim/facet_field.h"
 
 namespace catoptric::report {
 namespace {
 
 constexpr double most_sizes_away = 4;  ///< a mirror beside a field farther away would be a speck
-constexpr std::size_t most_corners = 40;
+constexpr std::size_t most_corners = 40, most_facets = 600;
 constexpr int points_of_a_span = 24, points_of_a_round = 72;
 
 using Box = Eigen::AlignedBox3d;
@@ -52,6 +53,16 @@ std::vector<Vector2> rim_of_cylinder(double side) {
   return places;
 }
 
+/// The borders of facets, of many an even selection.
+std::vector<Polyline> facet_outlines(const sim::FacetField& field) {
+  std::vector<Polyline> outlines;
+  const std::size_t step = 1 + field.facets() / most_facets;
+  for (std::size_t facet = 0; facet < field.facets(); facet += step)
+    outlines.push_back({field.corner_mm(facet, 0), field.corner_mm(facet, 1), field.corner_mm(facet, 2),
+                        field.corner_mm(facet, 0)});
+  return outlines;
+}
+
 ViewedField viewed(const sim::NearField& field) {
   using enum sim::NearField::Shape;
   switch (field.shape()) {
@@ -59,6 +70,8 @@ ViewedField viewed(const sim::NearField& field) {
       return {{outline(field, unit_circle())}, field.center_mm(), true};
     case rectangle:
       return {{outline(field, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})}, field.center_mm(), true};
+    case facets:
+      return {facet_outlines(*field.facets()), field.center_mm(), false};
     case cylinder:
       break;
   }
