@@ -12,8 +12,10 @@ build_packages=(
   librandom123-dev libnanoflann-dev libdxflib-dev libboost-dev libkainjow-mustache-dev
   gnuplot-nox libjs-three
 )
-test_packages=(catch2 freecad-python3 clang-format-14 python3-gmsh python3-ezdxf admesh assimp-utils
-  chromium chromium-driver python3-selenium)
+test_packages=(
+  catch2 freecad-python3 clang-format-14 chromium chromium-driver python3-selenium python3-gmsh python3-ezdxf admesh
+  assimp-utils
+)
 
 usage() {
   sed -n '2,4s/^# \{0,1\}//p' "$0"

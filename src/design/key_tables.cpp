@@ -88,11 +88,11 @@ const std::vector<Key>& scene_table() {
       {.path = "reflector.opening", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "radius of a round opening about the axis, for the lamp: of every mirror of the scene only what lies farther out is there, in simulation, search and files alike; variables are still those of the whole mirror"},
       {.path = "reflector.wall", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "wall thickness of the exported solid; left out: the open optical surface"},
       {.path = "reflector.wall_side", .type = choice, .choices = {"outside", "inside"}, .meaning = "side of the optical surface on which the wall stands"},
+      {.path = "reflector.sheet", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "thickness of the sheet that the mirror is made of, for its mass in reports; reflector.wall, or else 1 mm, when left out"},
       {.path = "reflector.flange", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "width of a flat flange across the axis, outward from the rim of the optical surface; it needs a wall"},
       {.path = "reflector.flange_thickness", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "its thickness along the axis; the wall's when left out"},
       {.path = "reflector.material", .type = text, .meaning = "what a walled mirror is made of, in STEP files of AP242"},
-      {.path = "reflector.density", .type = number, .least = 1e-3, .greatest = 1e6, .meaning = "its density, kg/m^3: `export` then states the part's mass; reports take aluminium's, 2700, when left out"},
-      {.path = "reflector.sheet", .type = number, .quantity = Q::length, .least = near, .greatest = far, .meaning = "thickness of the sheet that the mirror is made of, for its mass in reports; reflector.wall, or else 1 mm, when left out"},
+      {.path = "reflector.density", .type = number, .least = 1e-3, .greatest = 1e6, .meaning = "density of what the mirror is made of, kg/m^3: `export` states the mass of a walled part of a named material; reports that of a sheet, of aluminium when left out (2700)"},
 
       {.path = "near_field.shape", .type = choice, .choices = {"disc", "rectangle"}, .standard = "\"disc\"", .meaning = "shape of the surface that is to be lit"},
       {.path = "near_field.center", .type = numbers, .quantity = Q::length, .least = -far, .greatest = far, .count = 3, .standard = "[0.0, 0.0, 0.0]", .meaning = "its centre"},

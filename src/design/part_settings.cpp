@@ -48,8 +48,6 @@ void complete_part(Settings& settings) {
                  "reflector.flange = 5.0");
   require_beside(settings, "reflector.material", "reflector.wall", "a surface has no mass, a wall has",
                  "reflector.wall = 1.0");
-  require_beside(settings, "reflector.density", "reflector.material", "a density belongs to a material",
-                 "reflector.material = \"aluminium\"");
   if (settings.has("reflector.wall")) settings.fill("reflector.wall_side", "\"outside\"");
   if (settings.has("reflector.flange")) {
     if (settings.text("reflector.wall_side") == "inside")
@@ -86,7 +84,8 @@ cad::ExportOptions export_options(const Settings& settings, double unit_mm) {
                                                : cad::DxfCurves::automatic;
   options.product = *settings.text("reflector.name");
   options.material.name = settings.text("reflector.material").value_or("");
-  options.material.density_kg_per_m3 = settings.number("reflector.density");
+  if (!options.material.name.empty())
+    options.material.density_kg_per_m3 = settings.number("reflector.density");
   if (const auto wall = settings.number("reflector.wall")) {
     const bool inside = settings.text("reflector.wall_side") == "inside";
     options.wall = cad::Wall{*wall * unit_mm, inside ? cad::WallSide::inside : cad::WallSide::outside,

@@ -253,7 +253,7 @@ TradeoffSpec tradeoff(const Settings& settings) {
           *settings.number("tradeoff.reference_accuracy")};
 }
 
-constexpr double aluminium_kg_per_m3 = 2700;
+constexpr double usual_density_kg_per_m3 = 2700;  // of aluminium
 
 /// What the mirror is made of is at least as thick as the solid that is exported.
 double sheet_mm(const Settings& settings, double unit_mm) {
@@ -310,7 +310,7 @@ Scene build_scene(Settings settings, std::vector<std::string> notes) {
               .profile_notes = std::move(notes),
               .mirror = mirror,
               .sheet_mm = sheet_mm(settings, unit_mm),
-              .density_kg_per_m3 = settings.number("reflector.density").value_or(aluminium_kg_per_m3),
+              .density_kg_per_m3 = settings.number("reflector.density").value_or(usual_density_kg_per_m3),
               .near_field = std::move(field),
               .samples = static_cast<std::size_t>(*settings.integer("near_field.samples")),
               .surroundings = read_surroundings(settings, unit_mm),

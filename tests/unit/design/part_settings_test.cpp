@@ -55,7 +55,6 @@ TEST_CASE("keys of the part that say nothing by themselves are refused with thei
   refused("wall = 1\nflange_thickness = 2", "reflector.flange_thickness", "stands alone");
   refused("wall_side = \"inside\"", "reflector.wall_side", "stands alone");
   refused("material = \"Steel\"", "reflector.material", "stands alone");
-  refused("wall = 1\ndensity = 2700", "reflector.density", "stands alone");
   refused("wall = 1\nwall_side = \"inside\"\nflange = 5", "reflector.flange", "no place");
   refused("wall = 1\nflange = 0.3", "reflector.flange", "within the wall");
   refused("wall = 1\nflange = 8\nflange_thickness = 60", "reflector.flange", "does not fit");
