@@ -17,6 +17,7 @@
 #include "design/refinement.h"
 #include "design/run.h"
 #include "design/scene_defaults.h"
+#include "design/search.h"
 #include "design/source_settings.h"
 #include "design/surface_settings.h"
 #include "design/tailored_settings.h"
