@@ -25,6 +25,8 @@ constexpr std::uint64_t most_photons_of_a_tolerance = 20'000, most_replicates_of
 constexpr const char* too_long_by_photons =
     "by photons it would take longer than the search; catoptric landscape draws it";
 constexpr int landscape_steps = 21;
+/// Light that turns more often makes ray tubes dear: of a cavity one evaluation may take a second.
+constexpr double most_turns = 4;
 constexpr double landscape_margin = 0.2;  ///< about the path, as a share of its extent
 
 /// With less light, and by the engine that is quick.
@@ -43,6 +45,27 @@ void attempt(Illustration& illustration, const std::string& what, const std::fun
   } catch (const Error& error) {
     illustration.left_out.push_back(fmt::format("{}: {}", what, error.what()));
   }
+}
+
+std::vector<sim::LightPath> traced(const Scene& given) {
+  const Scene scene = lightened(given, traced_paths, 1);
+  const Stage stage(scene, start_candidate(scene));
+  sim::PhotonOptions photons = scene.model.photons;
+  photons.photons = traced_paths;
+  photons.seed = scene.seed;
+  photons.stream = illustration_stream + 1;
+  return light_paths(stage.scene, photons);
+}
+
+/// How often light that has met the mirror turns on its way, on average.
+double mean_turns(const std::vector<sim::LightPath>& paths) {
+  std::size_t met = 0, turns = 0;
+  for (const sim::LightPath& path : paths) {
+    if (!path.met_mirror) continue;
+    ++met;
+    turns += path.corners_mm.size() - 1;
+  }
+  return met > 0 ? static_cast<double>(turns) / static_cast<double>(met) : 0.0;
 }
 
 std::vector<sim::LightPath> shown(std::vector<sim::LightPath> all) {
@@ -89,6 +112,11 @@ std::string landscape_objection(const Scene& scene, const DesignResult& result) 
   if (scene.search.free != Freedom::listed || scene.variables.size() > 2 || !scene.search.refine.empty())
     return "the search moved more than two variables";
   if (result.plan.rung != sim::Rung::tubes) return too_long_by_photons;
+  const std::string& method = scene.search.method;
+  const bool walks = method == "hooke-jeeves" || method == "nelder-mead" || method == "compass" ||
+                     method == "levenberg-marquardt";
+  if (!walks)
+    return "the search drew mirrors from all of its box; catoptric landscape draws what is asked for";
   return {};
 }
 
@@ -127,24 +155,26 @@ void add_landscape(Illustration& illustration, const Scene& scene, const DesignR
 
 }  // namespace
 
-std::vector<sim::LightPath> shown_paths(const Scene& given) {
-  const Scene scene = lightened(given, traced_paths, 1);
-  const Stage stage(scene, start_candidate(scene));
-  sim::PhotonOptions photons = scene.model.photons;
-  photons.photons = traced_paths;
-  photons.seed = scene.seed;
-  photons.stream = illustration_stream + 1;
-  return shown(light_paths(stage.scene, photons));
-}
+std::vector<sim::LightPath> shown_paths(const Scene& scene) { return shown(traced(scene)); }
 
 Illustration illustrate(const Scene& scene) {
   Illustration illustration;
   const Scene light = lightened(scene, most_photons_from_afar, most_replicates_from_afar);
-  attempt(illustration, "Rays", [&] { illustration.paths = shown_paths(scene); });
+  double turns = 0;
+  attempt(illustration, "Rays", [&] {
+    std::vector<sim::LightPath> paths = traced(scene);
+    turns = mean_turns(paths);
+    illustration.paths = shown(std::move(paths));
+  });
   attempt(illustration, "Intensity", [&] { illustration.intensity = run_intensity(light, {}); });
   attempt(illustration, "Tolerances", [&] {
     const Scene brief = lightened(scene, most_photons_of_a_tolerance, most_replicates_of_a_tolerance);
-    if (make_plan(brief, start_candidate(brief)).rung == sim::Rung::tubes)
+    if (turns > most_turns)
+      illustration.left_out.push_back(fmt::format(
+          "Tolerances: light turns {:.1f} times in this mirror, and they would take longer than the run; "
+          "catoptric sensitivity computes them.",
+          turns));
+    else if (make_plan(brief, start_candidate(brief)).rung == sim::Rung::tubes)
       illustration.sensitivity = run_sensitivity(brief, {});
     else
       illustration.left_out.emplace_back(

@@ -106,7 +106,7 @@ TEST_CASE("STEP of AP242 colours the optical surface otherwise than the body") {
   CHECK(color(optical[1])[2] == Approx(0.94).margin(0.002));  // light blue
 }
 
-TEST_CASE("STEP of AP242 holds the material and its density; without one it says nothing of it") {
+TEST_CASE("STEP of AP242 holds the material and its density, and without one says nothing of it") {
   const StepText file(written(part_options()));
   bool named = false;
   for (const int item : file.all("DESCRIPTIVE_REPRESENTATION_ITEM"))

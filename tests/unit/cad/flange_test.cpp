@@ -57,7 +57,7 @@ TEST_CASE("a flange on a half sphere, whose rim runs along the axis: closed form
 }
 
 TEST_CASE(
-    "a flange looks away from the light also where the mirror opens upwards; a flat mirror has one too") {
+    "a flange looks away from the light also where the mirror opens upwards, and a flat mirror has one too") {
   const Profile up = Profile::bezier({{0, 0, 1}, {50, 0, 1}, {100, 50, 1}});
   const Wall wall{1, WallSide::outside, Flange{8, {}}};  // as thick as the wall
   CHECK(cad::shape_figures(up, wall).volume_mm3 ==
