@@ -94,7 +94,7 @@ TEST_CASE("what is proportional comes out exactly: power, reflectance", "[sensit
   CHECK(mirror.minus);
 }
 
-TEST_CASE("a perfect mirror cannot be better: by photons too it is made worse only", "[sensitivity]") {
+TEST_CASE("a perfect mirror cannot be better: by photons too it is made worse only", "[sensitivity][long]") {
   const Scene scene = paper("paraboloid.toml", {{"model.rung", "photons", "test"},
                                                 {"model.photons", "1024", "test"},
                                                 {"sensitivity.modes", "0", "test"}});

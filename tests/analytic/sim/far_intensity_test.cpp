@@ -86,7 +86,7 @@ TEST_CASE("a bundle of parallel rays is in one direction, and its flux is all th
   }
 }
 
-TEST_CASE("wide steps show their bias, and the bias says how much") {
+TEST_CASE("wide steps show their bias, and the bias says how much", "[long]") {
   const test::FlatMirror far_away(1e5, 1);
   const PointSource beam({0, 0, 0}, power, 30);
   const IntensityGrid grid = even_grid(4, 0, upright);

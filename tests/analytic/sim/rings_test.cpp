@@ -89,7 +89,7 @@ TEST_CASE("rings: bias of second and of fourth order on the axis, inside and at 
   }
 }
 
-TEST_CASE("rings: estimates up to a jump read the closed form within noise, beyond it nothing") {
+TEST_CASE("rings: estimates up to a jump read the closed form within noise, beyond it nothing", "[long]") {
   // In space, with a mirror that leans on no engine and photons at random; so wide a field that the rim is
   // inside. The bandwidth's bias, 0.07 h^2 E'' < 1e-4 W/m^2 (one-sided 0.03), is far below the noise.
   const auto mirror = test::paraboloid();

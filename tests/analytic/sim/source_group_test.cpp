@@ -69,7 +69,7 @@ TEST_CASE("a group's photons come from its parts in proportion to the light thes
   CHECK(of_point == count / 4);
 }
 
-TEST_CASE("a group's field is the sum of its parts' fields, direct, reflected and in the ledger") {
+TEST_CASE("a group's field is the sum of its parts' fields, direct, reflected and in the ledger", "[long]") {
   const test::FlatMirror mirror(20, 30);
   const NearField field = NearField::disc({0, 0, 0}, {0, 0, 1}, 10);
   const auto samples = field.samples(20);

@@ -56,7 +56,8 @@ TEST_CASE("a disc's direct light on its axis is M R^2 / (R^2 + h^2)") {
 }
 
 TEST_CASE(
-    "a disc's direct light anywhere is what a sum over its parts gives, cut by the element's plane or not") {
+    "a disc's direct light anywhere is what a sum over its parts gives, cut by the element's plane or not",
+    "[long]") {
   int cut = 0, whole = 0;
   for (std::uint64_t i = 0; i < 120; ++i) {
     RandomStream stream(3, Purpose::test, i);

@@ -125,7 +125,8 @@ TEST_CASE("a sphere's direct light anywhere is what a sum over its parts gives, 
   CHECK(globe.unhindered_w_per_mm2({0, 0, 0}, {0, 0, -1}) == 0);
 }
 
-TEST_CASE("a cylinder's direct light anywhere is what a sum over its parts gives, cut by the plane or not") {
+TEST_CASE("a cylinder's direct light anywhere is what a sum over its parts gives, cut by the plane or not",
+          "[long]") {
   check_direct(
       [](const Element& e) {
         const Eigen::Matrix3d frame = frame_about(e.axis);
@@ -158,7 +159,7 @@ TEST_CASE("the sine law's integral and inverse are each other's, to its ends") {
           Approx(law(cosine)).epsilon(1e-8));
 }
 
-TEST_CASE("a flat mirror shows a surface's image: its light is the image's direct light") {
+TEST_CASE("a flat mirror shows a surface's image: its light is the image's direct light", "[long]") {
   // Mirror at 20, wide enough for all ways from the source at 10 to the field at 0: the image is at 30.
   const test::FlatMirror mirror(20, 30);
   const NearField field = NearField::disc({0, 0, 0}, {0, 0, 1}, 10);

@@ -116,7 +116,7 @@ Profile walled_bowl(double wall_mm) {
 }  // namespace
 
 TEST_CASE("mesh finds meridian's hits, and what it loses grazes the surface within the chord error",
-          "[mesh]") {
+          "[mesh][long]") {
   constexpr std::uint64_t count = 20000;
   for (const Quadric& q : Quadric::all())
     for (const double relative : {1e-3, 1e-4}) {

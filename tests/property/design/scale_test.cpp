@@ -233,7 +233,7 @@ void check_rounding(const Case& each) {
 
 }  // namespace
 
-TEST_CASE("simulations are the same bits at any power of two and by 1, 2 and 7 threads", "[scale]") {
+TEST_CASE("simulations are the same bits at any power of two and by 1, 2 and 7 threads", "[scale][long]") {
   for (const Case& each : simulations()) check_bits(each);
 }
 

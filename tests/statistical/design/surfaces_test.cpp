@@ -52,7 +52,7 @@ double agreement(const Field& one, const Field& other) {
 
 }  // namespace
 
-TEST_CASE("rings and photons agree on the brushed paraboloid") {
+TEST_CASE("rings and photons agree on the brushed paraboloid", "[long]") {
   const std::string file = CATOPTRIC_DATA "/examples/brushed_paraboloid.toml";
   const Scene scene = read_scene(file, {}),
               rougher = read_scene(file, {{"reflector.roughness", "0.15", "test"}});

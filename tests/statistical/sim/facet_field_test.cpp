@@ -144,7 +144,7 @@ TEST_CASE("all light that leaves goes through a sphere of facets about it, once 
   for (std::size_t i = 400; i < 800; ++i) CHECK((light.reflected[i] == 0 && light.direct[i] == 0));
 }
 
-TEST_CASE("a flight meets all that it crosses of an invisible body: as much leaves it as enters") {
+TEST_CASE("a flight meets all that it crosses of an invisible body: as much leaves it as enters", "[long]") {
   const auto ball = [](bool lit_front) {
     return NearField::facets(field_of(test::icosphere({0, 0, -30}, 20, 2), lit_front));
   };

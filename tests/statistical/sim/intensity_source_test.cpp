@@ -120,7 +120,7 @@ TEST_CASE("a table of a cosine's power is a point source by that law") {
   }
 }
 
-TEST_CASE("a table's photons go nowhere but to the mirror, and none is kept from it") {
+TEST_CASE("a table's photons go nowhere but to the mirror, and none is kept from it", "[long]") {
   const auto profile = Profile::bezier({{5, 100, 1}, {50, 100, 1.4}, {100, 50, 1}});
   const auto table = std::make_shared<const IntensityTable>(uneven_table());
   for (const Vector3& at : {Vector3(0, 0, 50), Vector3(20, 10, 60), Vector3(-150, 0, 70)}) {

@@ -74,7 +74,7 @@ double flat_mirror_power(const Material& material, const Source& source, double 
 
 }  // namespace
 
-TEST_CASE("photons of a paraboloid carry the reflectance at their own incidence") {
+TEST_CASE("photons of a paraboloid carry the reflectance at their own incidence", "[long]") {
   const auto mirror = cad::make_meridian_reflector(paraboloid());
   const auto field = NearField::disc({0, 0, 0}, {0, 0, 1}, 100);
   constexpr std::size_t rings = 10;
@@ -122,7 +122,7 @@ TEST_CASE("rings of a paraboloid carry the reflectance at their own incidence") 
   }
 }
 
-TEST_CASE("a rough and matt flat mirror lights a plane as its distribution says") {
+TEST_CASE("a rough and matt flat mirror lights a plane as its distribution says", "[long]") {
   const test::FlatMirror mirror(50, 40);
   const auto field = NearField::disc({0, 0, 0}, {0, 0, 1}, 100);
   const PointSource source({0, 0, 20}, 3);

@@ -291,7 +291,8 @@ TEST_CASE("a real near field stands in the way of further fields") {
   }
 }
 
-TEST_CASE("light that a near field sends to a further field does not know the mirror it never met") {
+TEST_CASE("light that a near field sends to a further field does not know the mirror it never met",
+          "[long]") {
   const PointSource point({0, 0, 30}, 1);
   const NearField floor = NearField::disc({0, 0, 0}, {0, 0, 1}, 40, Material::matt(0.8));
   const NearField ceiling = NearField::disc({0, 0, 60}, {0, 0, -1}, 40);
@@ -316,7 +317,7 @@ TEST_CASE("light that a near field sends to a further field does not know the mi
   CHECK(test::rejected(test::z_test_p(above.reflected, {0.6 * power_w}, above.noise)));
 }
 
-TEST_CASE("round things about the axis are the same to rings as to photons") {
+TEST_CASE("round things about the axis are the same to rings as to photons", "[long]") {
   const LambertianDisc source({0, 0, 10}, 2, {0, 0, 1}, 2);
   const test::FlatMirror mirror{20, 60};
   const NearField floor = NearField::disc({0, 0, -20}, {0, 0, 1}, 30);

@@ -37,7 +37,8 @@ TEST_CASE("rays of the paraboloid go from its focus to the mirror and down besid
   }
 }
 
-TEST_CASE("a design by tubes over one variable has its landscape about the path, within the bounds") {
+TEST_CASE("a design by tubes over one variable has its landscape about the path, within the bounds",
+          "[long]") {
   const Scene given = scene(search);
   const DesignResult result = run_design(given, {});
   const Illustration shown = illustrate(given, result);

@@ -176,7 +176,7 @@ TEST_CASE("a cover costs the light that Fresnel says, and what it throws back th
   CHECK(all < 1.05);
 }
 
-TEST_CASE("the faces of a file are a field like the shape they have") {
+TEST_CASE("the faces of a file are a field like the shape they have", "[long]") {
   const test::TemporaryFolder folder;
   const auto file = folder / "tube.step";
   cad::export_reflector(Profile(1, {0, 0, 1, 1}, {{70, -40, 1}, {70, 20, 1}}), file);
