@@ -14,7 +14,7 @@ build_packages=(
 )
 test_packages=(
   catch2 freecad-python3 clang-format-14 chromium chromium-driver python3-selenium python3-gmsh python3-ezdxf admesh
-  assimp-utils
+  assimp-utils dpkg-dev file
 )
 
 usage() {
