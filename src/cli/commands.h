@@ -43,8 +43,11 @@ struct ProfileOptions {
 };
 
 struct ExportCommandOptions {
-  std::vector<std::string> formats;  ///< step, iges, brep, stl, glb, dxf; empty: step and iges
+  std::vector<std::string> formats;  ///< of export_format_names; empty: step and iges
 };
+
+/// What --format takes, in the order in which files are written.
+std::vector<std::string> export_format_names();
 
 struct CompletionOptions {
   std::string shell;  ///< bash, zsh, fish

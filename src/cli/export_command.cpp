@@ -37,6 +37,12 @@ std::string description(const cad::ExportReport& report, const cad::PartMaterial
 
 }  // namespace
 
+std::vector<std::string> export_format_names() {
+  std::vector<std::string> names;
+  for (const Format& format : formats) names.emplace_back(format.name);
+  return names;
+}
+
 ExitCode export_command(const CommonOptions& options, const ExportCommandOptions& more) {
   const design::Scene scene = design::read_scene(options.input, options.overrides());
   const Profile profile = design::start_profile(scene);

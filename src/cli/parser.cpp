@@ -1,6 +1,7 @@
 #include "cli/parser.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -31,8 +32,8 @@ void add_common(CLI::App& command, CommonOptions& options, const char* input) {
 struct Parser {
   CLI::App app{"Designs rotationally symmetric mirrors from the light they must make."};
   CommandLine line;
-  std::vector<std::string> shells{"bash", "zsh", "fish"},
-      formats{"step", "iges", "brep", "stl", "glb", "dxf"}, units{"mm", "cm", "m", "in"};
+  std::vector<std::string> shells{"bash", "zsh", "fish"}, formats = export_format_names(),
+                                                          units{"mm", "cm", "m", "in"};
 
   Parser() {
     app.name("catoptric");
@@ -90,8 +91,9 @@ struct Parser {
     auto* written = app.add_subcommand("export", "Writes the scene's mirror as CAD files");
     add_common(*written, line.common, "SCENE.toml");
     written
-        ->add_option("--format", line.shape.formats,
-                     "step, iges, brep, stl, glb, dxf; may be repeated; step and iges when left out")
+        ->add_option(
+            "--format", line.shape.formats,
+            fmt::format("{}; may be repeated; step and iges when left out", fmt::join(formats, ", ")))
         ->check(CLI::IsMember(formats))
         ->allow_extra_args(false)
         ->type_name("FORMAT");

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "base/errors.h"
 #include "design/constraints.h"
@@ -101,7 +102,9 @@ optim::Outcome by_method(const Scene& scene, const Target& target, const optim::
                                 .seed = one.seed,
                                 .population = spec.population,
                                 .annealing_evaluations = spec.most_evaluations});
-  return by_hooke_jeeves(spec, one, telling);
+  if (spec.method == "hooke-jeeves") return by_hooke_jeeves(spec, one, telling);
+  // A name that the table of keys has and this list has not: never another search under its name.
+  throw std::logic_error("search.method \"" + spec.method + "\" has no search");
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 #include <catch2/catch.hpp>
+#include <set>
+#include <string>
+#include <string_view>
 
 #include "base/errors.h"
+#include "design/keys.h"
 #include "design/run.h"
 #include "support/ray_bytes.h"
 #include "support/temporary_folder.h"
@@ -49,6 +53,23 @@ TEST_CASE("surfaces are made from their keys, and written back as they are") {
                     Catch::Contains("source.radius"));
   CHECK_THROWS_WITH(scene_of("kind = \"rectangle\"\nwidth = 1\nheight = 1\nalong = [0, 0, 1]"),
                     Catch::Contains("source.along"));
+}
+
+TEST_CASE("a key of some kinds of source is refused by a point and never passed over") {
+  const std::set<std::string> of_a_point{"kind", "position", "power", "flux", "exponent", "axis"};
+  int others = 0;
+  for (const Key& key : scene_keys()) {
+    if (!key.path.starts_with("source.")) continue;
+    const std::string name(key.path.substr(std::string_view("source.").size()));
+    if (of_a_point.contains(name)) continue;
+    const std::string value = key.type == KeyType::text      ? "\"a\""
+                              : key.type == KeyType::numbers ? "[1.0, 0.0, 0.0]"
+                                                             : "1.0";
+    CHECK_THROWS_WITH(scene_of(name + " = " + value),
+                      Catch::Contains("source." + name) && Catch::Contains("does not belong to this source"));
+    ++others;
+  }
+  CHECK(others > 0);
 }
 
 TEST_CASE("a photometric file makes the source, and its name is kept whole") {
