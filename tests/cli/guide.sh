@@ -20,7 +20,7 @@ mkdir "$folder/bin"
 cat >"$folder/bin/catoptric" <<EOF
 #!/bin/sh
 "$program" "\$@" --quiet --set model.photons=2048 --set model.replicates=2 --set search.most_evaluations=12 \\
-  --set sensitivity.modes=0 || [ \$? = 5 ]  # 5: ended by the search's limit, as the guide says
+  --set sensitivity.modes=0 --set near_field.samples=64 || [ \$? = 5 ]  # 5: ended by the search's limit, as the guide says
 EOF
 chmod +x "$folder/bin/catoptric"
 
