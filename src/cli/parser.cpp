@@ -32,8 +32,8 @@ void add_common(CLI::App& command, CommonOptions& options, const char* input) {
 struct Parser {
   CLI::App app{"Designs rotationally symmetric mirrors from the light they must make."};
   CommandLine line;
-  std::vector<std::string> shells{"bash", "zsh", "fish"}, formats = export_format_names(),
-                                                          units{"mm", "cm", "m", "in"};
+  std::vector<std::string> shells{"bash", "zsh", "fish"}, units{"mm", "cm", "m", "in"};
+  std::vector<std::string> formats = export_format_names();
 
   Parser() {
     app.name("catoptric");
