@@ -89,8 +89,22 @@ Part part_of(std::size_t field, std::span<const sim::FieldSample> samples, const
   return part;
 }
 
+/// Least, greatest and their ratios, places 1 to 4, may be off by what noise picks out besides.
+void widen_extremes(std::vector<Figure>& figures, const Part& part) {
+  if (!figures[1].half_interval) return;
+  Spread total = spread(part.sharp);
+  total.mean = sum(part.direct, total.mean);
+  const ExtremesMargin margin = extremes_margin(total);
+  const double average = figures[0].value, greatest = figures[2].value;
+  *figures[1].half_interval += margin.least;
+  *figures[2].half_interval += margin.greatest;
+  if (average > 0) *figures[3].half_interval += margin.least / average;
+  if (greatest > 0)
+    *figures[4].half_interval += (margin.least + figures[4].value * margin.greatest) / greatest;
+}
+
 std::vector<Figure> figures_of_part(const Part& part, double area_of_a_sample_mm2, const Zones& zones) {
-  return figures_of(
+  std::vector<Figure> figures = figures_of(
       part.reflected, part.sharp,
       [&](const std::vector<double>& field) {
         return numbers_of(sum(part.direct, field), area_of_a_sample_mm2, zones);
@@ -98,6 +112,8 @@ std::vector<Figure> figures_of_part(const Part& part, double area_of_a_sample_mm
       [&](const Spread& fields) {
         return numbers_of(sum(part.direct, fields.mean), area_of_a_sample_mm2, zones);
       });
+  widen_extremes(figures, part);
+  return figures;
 }
 
 }  // namespace

@@ -42,10 +42,10 @@ struct FurtherFigures {
 };
 
 /// @in    reflected, sharp: of each replicate as the kernel shows it, and with the blur extrapolated away
-/// @error least and greatest are those of the samples; photon noise makes them more extreme, which the bias
-/// says.
-///        Every sample stands for the same area, so that a zone's flux is off by about the share of its
-///        samples that are neighbours of its edge, times 1 / sqrt of their number
+/// @error least and greatest are those of the samples; photon noise makes them more extreme, for which their
+///        intervals have room where it cannot tell the extreme samples apart; the bias of few photons may
+///        have the wrong sign there. Every sample stands for the same area, so that a zone's flux is off by
+///        about the share of its samples that are neighbours of its edge, times 1 / sqrt of their number
 /// @from  U0 and Ud: EN 12464-1
 FieldFigures field_figures(const Scene& scene, std::span<const sim::FieldSample> samples,
                            const std::vector<double>& direct, const Rows& reflected, const Rows& sharp);

@@ -47,6 +47,24 @@ double debiased_value(Metric metric, const Scene& scene, const Target& target, c
   return metric == Metric::rmse ? to_w_per_m2(clean) : rmse > 0 ? value * clean / rmse : 0.0;
 }
 
+/// How far noise that picks out extremes may move a ratio with the least, among the samples that count.
+double ratio_margin(Metric metric, double value, const Spread& fields, const std::vector<double>& direct,
+                    const Target& target) {
+  Spread counting;
+  double average = 0, greatest = 0;
+  for (std::size_t i = 0; i < fields.mean.size(); ++i) {
+    if (i < target.within_reach.size() && !target.within_reach[i]) continue;
+    counting.mean.push_back(direct[i] + fields.mean[i]);
+    counting.variance_of_mean.push_back(fields.variance_of_mean[i]);
+    average += counting.mean.back();
+    greatest = std::max(greatest, counting.mean.back());
+  }
+  if (!(greatest > 0 && average > 0)) return 0;
+  const ExtremesMargin margin = extremes_margin(counting);
+  if (metric == Metric::uniformity) return margin.least * static_cast<double>(counting.mean.size()) / average;
+  return (margin.least + value * margin.greatest) / greatest;
+}
+
 Figure judge_metric(Metric metric, const Scene& scene, const Target& target, const Rows& reflected,
                     const Rows& sharp, const std::vector<double>& direct) {
   const auto of_one = [&](const std::vector<double>& field) {
@@ -55,7 +73,10 @@ Figure judge_metric(Metric metric, const Scene& scene, const Target& target, con
   const auto of_all = [&](const Spread& fields) {
     return std::vector<double>{debiased_value(metric, scene, target, fields, direct)};
   };
-  return figures_of(reflected, sharp, of_one, of_all).front();
+  Figure figure = figures_of(reflected, sharp, of_one, of_all).front();
+  if (figure.half_interval && (metric == Metric::uniformity || metric == Metric::diversity))
+    *figure.half_interval += ratio_margin(metric, figure.value, spread(sharp), direct, target);
+  return figure;
 }
 
 /// The scene with a candidate's source: a share of the power is a share of that source's.

@@ -1,5 +1,6 @@
 #include "design/replicates.h"
 
+#include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
@@ -23,6 +24,33 @@ double student95(std::size_t replicates) {
   if (replicates < 2) return 0;
   const boost::math::students_t student(static_cast<double>(replicates - 1));
   return boost::math::quantile(boost::math::complement(student, 0.025));
+}
+
+namespace {
+
+/// For the places whose value lies within reach of the extreme one.
+double margin_of(const Spread& fields, double extreme, double reach) {
+  double variance = 0;
+  std::size_t rivals = 0;
+  for (std::size_t i = 0; i < fields.mean.size(); ++i) {
+    if (!(std::abs(fields.mean[i] - extreme) <= reach)) continue;
+    variance += fields.variance_of_mean[i];
+    ++rivals;
+  }
+  const double count = static_cast<double>(rivals);
+  return std::sqrt(variance / count * 2 * std::log(count));
+}
+
+}  // namespace
+
+ExtremesMargin extremes_margin(const Spread& fields) {
+  const double count = static_cast<double>(fields.mean.size());
+  double variance = 0;
+  for (const double each : fields.variance_of_mean) variance += each / count;
+  // The extreme one and its rival may be off by that much each.
+  const double reach = 2 * std::sqrt(variance * 2 * std::log(count));
+  const auto [least, greatest] = std::minmax_element(fields.mean.begin(), fields.mean.end());
+  return {margin_of(fields, *least, reach), margin_of(fields, *greatest, reach)};
 }
 
 std::vector<Figure> figures_of(const Rows& reflected, const Rows& sharp,

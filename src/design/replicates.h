@@ -33,6 +33,14 @@ Spread spread(const Rows& rows, std::size_t left_out = none_left_out);
 /// Half width, in standard errors, of an interval that holds the truth with a probability of 95 %.
 double student95(std::size_t replicates);
 
+/// How far noise may move the least and the greatest of a field beyond what the spread of one place shows:
+/// among places that noise cannot tell apart it picks the one where it is worst.
+/// @from  of m normal errors the largest lies below sqrt(2 ln m) standard deviations on average
+struct ExtremesMargin {
+  double least = 0, greatest = 0;  ///< 0 where one place stands out
+};
+ExtremesMargin extremes_margin(const Spread& fields);
+
 /// What replicates say of numbers that follow from a field.
 /// @in    of_one: the numbers as one evaluation's field, as the kernel shows it, gives them; of_all: the same
 ///        free of noise and blur as far as can be, from the spread of the fields without blur
