@@ -16,6 +16,13 @@ inline constexpr std::size_t fates = 7;
 struct FlightCounts {
   std::array<std::uint64_t, fates> ended{};  ///< photons by Fate
   std::uint64_t met_mirror = 0, interactions = 0, stored = 0;
+
+  void add(const FlightCounts& part) {
+    for (std::size_t i = 0; i < ended.size(); ++i) ended[i] += part.ended[i];
+    met_mirror += part.met_mirror;
+    interactions += part.interactions;
+    stored += part.stored;
+  }
 };
 
 /// What all tasks together counted. Whole numbers, so that their order does not matter.
@@ -26,6 +33,12 @@ class SharedCounts {
     met_mirror_ += part.met_mirror;
     interactions_ += part.interactions;
     stored_ += part.stored;
+  }
+
+  FlightCounts counted() const {
+    FlightCounts counts{{}, met_mirror_, interactions_, stored_};
+    for (std::size_t i = 0; i < ended_.size(); ++i) counts.ended[i] = ended_[i];
+    return counts;
   }
 
   /// Totals of `photons` photons that share `emitted_w`. From the first meeting with the mirror on, each

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/byte_record.h"
 #include "base/contract.h"
 #include "sim/facet_estimate.h"
+#include "sim/flight_counts.h"
 
 namespace catoptric::sim {
 namespace {
@@ -82,6 +84,54 @@ MapEstimate of_size(std::size_t size) {
           std::vector<std::size_t>(size)};
 }
 
+/// What the photons of a batch, or of several, give.
+struct BatchFields {
+  std::vector<MapEstimate> estimates;
+  FlightCounts counts;
+};
+
+Bytes as_bytes(const BatchFields& fields) {
+  ByteWriter writer;
+  writer.put(fields.counts);
+  for (const MapEstimate& each : fields.estimates)
+    writer.put(each.irradiance).put(each.noise).put(each.kernel_radius_mm).put(each.photons);
+  return writer.take();
+}
+
+BatchFields batch_fields(const Bytes& bytes, std::size_t bandwidths) {
+  BatchFields fields{std::vector<MapEstimate>(bandwidths), {}};
+  ByteReader reader(bytes);
+  reader.get(fields.counts);
+  for (MapEstimate& each : fields.estimates)
+    reader.get(each.irradiance).get(each.noise).get(each.kernel_radius_mm).get(each.photons);
+  return fields;
+}
+
+/// Estimates from photons that have landed, which are used up.
+std::vector<MapEstimate> estimates(std::vector<FieldPart>& parts, std::size_t bandwidths,
+                                   std::size_t samples) {
+  std::vector<MapEstimate> all(bandwidths, of_size(samples));
+  for (FieldPart& part : parts) {
+    if (const FacetField* facets = part.field.facets()) {
+      for (std::size_t i = 0; i < bandwidths; ++i)
+        put(estimate_on_facets(*facets, part.landed, part.samples, part.bandwidths[i]), part.places, all[i]);
+      continue;
+    }
+    const PhotonMap map(part.field, std::move(part.landed));
+    for (std::size_t i = 0; i < bandwidths; ++i)
+      put(map.estimate(part.samples, part.bandwidths[i]), part.places, all[i]);
+  }
+  return all;
+}
+
+/// Chunks of photons whose map is held at a time.
+std::uint64_t chunks_at_once(std::uint64_t chunks, std::uint64_t batch,
+                             std::span<const EstimateOptions> bandwidths, std::size_t fields) {
+  const std::uint64_t at_once =
+      all_by_radius(bandwidths) ? std::min(chunks, batch / photons_of_a_chunk / fields) : chunks;
+  return std::max<std::uint64_t>(1, at_once);
+}
+
 }  // namespace
 
 PhotonFields photon_fields(const Scene& scene, std::span<const FieldSample> samples,
@@ -95,45 +145,48 @@ PhotonFields photon_fields(const Scene& scene, std::span<const FieldSample> samp
   for (std::size_t i = 1; i < parts.size(); ++i) more.push_back(parts[i].area);
   const PhotonFlights flights(scene, parts.front().area, std::move(more));
   const std::uint64_t chunks = PhotonFlights::chunks(photons.photons);
-  const std::uint64_t at_once =
-      all_by_radius(bandwidths) ? std::min(chunks, batch / photons_of_a_chunk / parts.size()) : chunks;
-  const std::uint64_t chunks_of_a_batch = std::max<std::uint64_t>(1, at_once);
-  PhotonFields fields{std::vector<MapEstimate>(bandwidths.size()), {}, {}};
-  const auto begin_batch = [&] {
+  const std::uint64_t at_once = chunks_at_once(chunks, batch, bandwidths, parts.size());
+  const auto of_batch = [&](std::uint64_t number) {
     for (FieldPart& part : parts) {
       part.landed.area = part.area;
       part.landed.photon_power_w = flights.photon_power_w(photons.photons);
       part.landed.chunks.assign(at_once, {});
     }
+    const std::uint64_t first = number * at_once;
+    const FlightCounts counts = flights.fly_chunks(
+        photons,
+        [&](std::uint64_t i, std::vector<Crossing>&& crossings) {
+          for (std::size_t field = 0; field < parts.size(); ++field)
+            parts[field].landed.chunks[i - first] = store(crossings, parts[field].area, field);
+        },
+        first, std::min(chunks, first + at_once));
+    return BatchFields{estimates(parts, bandwidths.size(), samples.size()), counts};
   };
-  begin_batch();
-  const FlightTotals totals = flights.fly(
-      photons,
-      [&](std::uint64_t i, std::vector<Crossing>&& crossings) {
-        for (std::size_t field = 0; field < parts.size(); ++field)
-          parts[field].landed.chunks[i % chunks_of_a_batch] = store(crossings, parts[field].area, field);
-      },
-      chunks_of_a_batch,
-      [&] {
-        std::vector<MapEstimate> batch_estimates(bandwidths.size(), of_size(samples.size()));
-        for (FieldPart& part : parts) {
-          if (const FacetField* facets = part.field.facets()) {
-            for (std::size_t i = 0; i < bandwidths.size(); ++i)
-              put(estimate_on_facets(*facets, part.landed, part.samples, part.bandwidths[i]), part.places,
-                  batch_estimates[i]);
-            continue;
-          }
-          const PhotonMap map(part.field, std::move(part.landed));
-          for (std::size_t i = 0; i < bandwidths.size(); ++i)
-            put(map.estimate(part.samples, part.bandwidths[i]), part.places, batch_estimates[i]);
-        }
-        for (std::size_t i = 0; i < bandwidths.size(); ++i)
-          add(fields.estimates[i], std::move(batch_estimates[i]));
-        begin_batch();
-      });
-  fields.energy = totals.energy;
-  fields.counts = totals.counts;
-  return fields;
+  const std::uint64_t batches = std::max<std::uint64_t>(1, (chunks + at_once - 1) / at_once);
+  BatchFields sum{std::vector<MapEstimate>(bandwidths.size()), {}};
+  const auto add_batch = [&](BatchFields part) {
+    for (std::size_t i = 0; i < bandwidths.size(); ++i) add(sum.estimates[i], std::move(part.estimates[i]));
+    sum.counts.add(part.counts);
+  };
+  if (photons.ranks && batches > 1) {
+    sum = batch_fields(
+        photons.ranks->join(
+            batches, [&](std::size_t number) { return as_bytes(of_batch(number)); },
+            [&](std::size_t, const Bytes& result) { add_batch(batch_fields(result, bandwidths.size())); },
+            [&] { return as_bytes(sum); }),
+        bandwidths.size());
+  } else {
+    for (std::uint64_t number = 0; number < batches; ++number) add_batch(of_batch(number));
+  }
+  const FlightTotals totals = flights.totals(photons.photons, sum.counts);
+  return {std::move(sum.estimates), totals.energy, totals.counts};
+}
+
+std::uint64_t photon_batches(std::uint64_t photons, std::span<const EstimateOptions> bandwidths,
+                             std::size_t fields) {
+  const std::uint64_t chunks = PhotonFlights::chunks(photons);
+  const std::uint64_t at_once = chunks_at_once(chunks, photons_of_a_batch, bandwidths, fields);
+  return std::max<std::uint64_t>(1, (chunks + at_once - 1) / at_once);
 }
 
 std::uint64_t photon_memory_bytes(std::uint64_t photons, const EstimateOptions& bandwidth) {

@@ -29,13 +29,19 @@ struct PhotonFields {
 /// Rung "photons" from flight to irradiance. With fixed radii an estimate is a sum over photons, so that they
 /// are traced, mapped, summed and forgotten batch after batch: any number of photons in the same memory. The
 /// nearest N are only known when all are there.
+/// Several batches are shared by the ranks of `photons`.
 /// @in    samples on the near field; at least one bandwidth; batch: a multiple of photons_of_a_chunk
-/// @out   the same bits for any number of threads; those of one map where a batch holds all photons
+/// @out   the same bits for any number of threads and ranks; those of one map where a batch holds all photons
 /// @fails as trace_photons and PhotonMap::estimate
 /// @cost  as these; memory as photon_memory_bytes()
 PhotonFields photon_fields(const Scene& scene, std::span<const FieldSample> samples,
                            const PhotonOptions& photons, std::span<const EstimateOptions> bandwidths,
                            std::uint64_t batch = photons_of_a_batch);
+
+/// Into how many batches photon_fields() cuts so many photons.
+/// @in fields  where irradiance is asked for, the near field counted
+std::uint64_t photon_batches(std::uint64_t photons, std::span<const EstimateOptions> bandwidths,
+                             std::size_t fields);
 
 /// Most memory that the photons of photon_fields() take, flight and map together, when each meets the near
 /// field's plane once. (In a cavity one photon may meet it many times.)

@@ -122,37 +122,32 @@ std::uint64_t PhotonFlights::chunks(std::uint64_t photons) {
 }
 
 FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossings& take) const {
-  return fly(options, take, std::max<std::uint64_t>(1, chunks(options.photons)), [] {});
+  return totals(options.photons, fly_chunks(options, take, 0, chunks(options.photons)));
 }
 
 double PhotonFlights::photon_power_w(std::uint64_t photons) const {
-  return SharedCounts()
-      .totals(photons, parts_->emission->power_w(), first_share(parts_->scene))
-      .photon_power_w;
+  return totals(photons, {}).photon_power_w;
 }
 
-FlightTotals PhotonFlights::fly(const PhotonOptions& options, const TakeCrossings& take,
-                                std::uint64_t chunks_of_a_batch, const std::function<void()>& landed) const {
+FlightCounts PhotonFlights::fly_chunks(const PhotonOptions& options, const TakeCrossings& take,
+                                       std::uint64_t first, std::uint64_t end) const {
   check(options);
-  CATOPTRIC_EXPECTS(chunks_of_a_batch > 0);
   const std::uint64_t key = photon_key(options.seed, options.stream);
   const std::uint64_t photons = options.photons;
   SharedCounts counts;
-  const auto fly_chunk = [&](std::uint64_t i) {
+  side_by_side(end - first, [&](std::uint64_t i) {
     give_up_if_stopped(options);
-    const std::uint64_t first = i * photons_of_a_chunk;
-    ChunkResult chunk = parts_->trace(options, key, first, std::min(first + photons_of_a_chunk, photons));
-    counts.add(chunk.counts);
-    take(i, std::move(chunk.crossings));
-  };
-  std::uint64_t begin = 0;
-  do {
-    const std::uint64_t end = std::min(chunks(photons), begin + chunks_of_a_batch);
-    side_by_side(end - begin, [&](std::uint64_t i) { fly_chunk(begin + i); });
-    landed();
-    begin = end;
-  } while (begin < chunks(photons));
+    const std::uint64_t chunk = first + i, photon = chunk * photons_of_a_chunk;
+    ChunkResult result = parts_->trace(options, key, photon, std::min(photon + photons_of_a_chunk, photons));
+    counts.add(result.counts);
+    take(chunk, std::move(result.crossings));
+  });
+  return counts.counted();
+}
 
+FlightTotals PhotonFlights::totals(std::uint64_t photons, const FlightCounts& counted) const {
+  SharedCounts counts;
+  counts.add(counted);
   return counts.totals(photons, parts_->emission->power_w(), first_share(parts_->scene));
 }
 

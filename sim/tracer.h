@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/ranks.h"
 #include "sim/emission.h"
 #include "sim/recorded_area.h"
 #include "sim/scene.h"
@@ -21,6 +22,7 @@ struct PhotonOptions {
   std::uint64_t stream = 0;  ///< another stream is another independent set of photons
   int most_interactions = 1000;
   const std::atomic<bool>* stop = nullptr;  ///< true: photons in flight are given up with Interrupted
+  Ranks* ranks = nullptr;  ///< that batches of photons are shared by; null: this process alone
 };
 
 /// Where the emitted power went. Photons are counted as whole numbers, so the parts add up to emitted_w
@@ -123,6 +125,8 @@ using TakeCrossings = std::function<void(std::uint64_t chunk, std::vector<Crossi
 /// Whether photons that stay in their meridian planes are traced there, or in space like all others.
 enum class FlightSpace { as_needed, always_space };
 
+struct FlightCounts;  // flight_counts.h
+
 /// Photons ready to fly: what does not depend on their numbers is prepared once for any number of sets, and
 /// the crossings are handed over as they come, so that memory need not grow with the photons. After the
 /// mirror no intersection is looked for where its shape excludes one (see Opening).
@@ -146,10 +150,13 @@ class PhotonFlights {
   ///        options.stop is true
   FlightTotals fly(const PhotonOptions& options, const TakeCrossings& take) const;
 
-  /// The same, batch after batch of so many chunks, for takers that must not keep all crossings: `landed` is
-  /// called when all chunks of a batch are down, at least once.
-  FlightTotals fly(const PhotonOptions& options, const TakeCrossings& take, std::uint64_t chunks_of_a_batch,
-                   const std::function<void()>& landed) const;
+  /// A part of a set, for takers that must not keep all crossings and for sets that processes share: chunks
+  /// `first` .. `end` - 1 alone, and what was counted of them.
+  FlightCounts fly_chunks(const PhotonOptions& options, const TakeCrossings& take, std::uint64_t first,
+                          std::uint64_t end) const;
+
+  /// The totals of a set of so many photons of which all parts together counted this.
+  FlightTotals totals(std::uint64_t photons, const FlightCounts& counted) const;
 
   /// Power of one of so many photons once it has met the mirror, W.
   double photon_power_w(std::uint64_t photons) const;
