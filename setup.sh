@@ -10,7 +10,7 @@ build_packages=(
   libocct-data-exchange-dev libfontconfig-dev libeigen3-dev libtbb-dev libfmt-dev
   libceres-dev libpagmo-dev libnlopt-dev libembree-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libpng-dev
   librandom123-dev libnanoflann-dev libdxflib-dev libboost-dev libkainjow-mustache-dev
-  gnuplot-nox libjs-three
+  gnuplot-nox libjs-three libopenmpi-dev openmpi-bin
 )
 test_packages=(
   catch2 freecad-python3 clang-format-14 chromium chromium-driver python3-selenium python3-gmsh python3-ezdxf admesh

@@ -1,28 +1,30 @@
 # Rejects an include that points up or sideways in the house, and OCCT outside its room.
 #   cmake -DROOT=<tree> -P layering.cmake
-# A <- B: B may include A. base <- { cad, sim, optim, photometry, rayfiles, images } <- design <- report <- cli
+# A <- B: B may include A. base <- { cad, sim, optim, photometry, rayfiles, images } <- design <- report <- cli; base <- cluster <- cli
 cmake_minimum_required(VERSION 3.23)
 set(may_base base)
 set(may_cad base cad)
 set(may_sim base sim)
 set(may_optim base optim)
+set(may_cluster base cluster)
 set(may_photometry base photometry)
 set(may_rayfiles base rayfiles)
 set(may_images base images)
 set(may_design base cad sim optim photometry rayfiles images design)
 set(may_report base cad sim optim photometry rayfiles images design report)
-set(may_cli base cad sim optim photometry rayfiles images design report cli)
+set(may_cli base cluster cad sim optim photometry rayfiles images design report cli)
 set(folder_base src/base)
 set(folder_cad cad)
 set(folder_sim sim)
 set(folder_optim src/optim)
+set(folder_cluster src/cluster)
 set(folder_photometry src/photometry)
 set(folder_rayfiles src/rayfiles)
 set(folder_images src/images)
 set(folder_design src/design)
 set(folder_report src/report)
 set(folder_cli src/cli)
-set(rooms base cad sim optim photometry rayfiles images design report cli)
+set(rooms base cluster cad sim optim photometry rayfiles images design report cli)
 
 set(broken 0)
 set(seen 0)
