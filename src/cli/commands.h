@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "base/ranks.h"
 #include "design/settings.h"
 
 namespace catoptric::cli {
@@ -19,9 +20,13 @@ struct CommonOptions {
   std::optional<int> threads;
   std::optional<std::int64_t> seed;
   bool quiet = false;
-  bool json = false;  ///< JSON lines instead of words
+  bool json = false;       ///< JSON lines instead of words
+  Ranks* ranks = nullptr;  ///< that share the run; set before any command
 
-  bool tells_people() const { return !quiet && !json; }
+  /// Rank 0 writes and speaks, the others neither.
+  bool leads() const { return !ranks || ranks->leads(); }
+  bool tells_people() const { return !quiet && !json && leads(); }
+  bool tells_programs() const { return json && leads(); }
   /// --set, --seed and --threads as overrides of the scene.  @fails UsageError for a --set without "="
   std::vector<design::Override> overrides() const;
   std::filesystem::path out_folder() const;

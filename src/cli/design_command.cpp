@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "base/byte_record.h"
 #include "cli/scene_run.h"
 #include "cli/stop_signal.h"
 #include "report/field_report.h"
@@ -13,19 +14,31 @@ namespace {
 
 /// What a search with its checkpoint was told so far, and the file that follows it.
 struct ResumableSearch {
-  ResumableSearch(const SceneRun& run, bool resume)
-      : file(run.scene, run.out), resumed(resume && file.exists()), tape(known(resumed)) {
-    if (resume && !resumed)
+  ResumableSearch(const SceneRun& run, bool resume, Ranks& ranks)
+      : file(run.scene, run.out), tape(resume ? known(ranks) : std::vector<optim::Answer>{}) {
+    if (!ranks.leads()) return;
+    if (resume && !file.exists())
       fmt::print(stderr, "catoptric: no checkpoint in {}: the search begins anew\n", run.out.string());
     tape.grown = [this](const optim::SearchTape& grown) { file.keep(grown); };
   }
 
-  std::vector<optim::Answer> known(bool resume) const {
-    return resume ? file.read() : std::vector<optim::Answer>{};
+  /// Rank 0 reads, all are told: on other machines there may be no such file.
+  std::vector<optim::Answer> known(Ranks& ranks) const {
+    const Bytes bytes = ranks.from_first([&] {
+      ByteWriter writer;
+      for (const optim::Answer& each : file.exists() ? file.read() : std::vector<optim::Answer>{})
+        writer.put(each.x).put(each.value);
+      return writer.take();
+    });
+    std::vector<optim::Answer> answers;
+    for (ByteReader reader(bytes); !reader.at_end();) {
+      auto x = reader.get<std::vector<double>>();
+      answers.push_back({std::move(x), reader.get<double>()});
+    }
+    return answers;
   }
 
   report::Checkpoint file;
-  bool resumed;
   optim::SearchTape tape;
 };
 
@@ -73,10 +86,11 @@ void print_constraints(const design::Scene& scene, const design::Judged& judged)
 
 ExitCode design_command(const CommonOptions& options, const DesignOptions& more) {
   SceneRun run(options);
-  ResumableSearch search(run, more.resume);
+  ResumableSearch search(run, more.resume, *options.ranks);
   design::RunControl control = run.control;
   control.tape = &search.tape;
   const design::DesignResult result = design::run_design(run.scene, control);
+  if (!options.leads()) return ExitCode::done;
   run.line.show({"write", 1.0, std::numeric_limits<double>::quiet_NaN(), 0});
   const auto files = report::write_design(run.scene, result, run.out);
   run.line.finish();
@@ -104,6 +118,7 @@ ExitCode design_command(const CommonOptions& options, const DesignOptions& more)
 ExitCode simulate_command(const CommonOptions& options) {
   SceneRun run(options);
   const design::SimulationResult result = design::run_simulation(run.scene, run.control);
+  if (!options.leads()) return ExitCode::done;
   const auto files = report::write_simulation(run.scene, result, run.out);
   run.line.finish();
   if (options.tells_people()) {

@@ -5,6 +5,7 @@
 #include "design/evaluator.h"
 #include "design/memory_need.h"
 #include "design/run.h"
+#include "design/shared_work.h"
 
 namespace catoptric::cli {
 
@@ -14,6 +15,13 @@ void print_plan(const char* title, const sim::Plan& plan) {
   fmt::print("{}\n", title);
   for (const sim::Finding& finding : plan.findings)
     fmt::print("  {:<22}  {}: {}\n", finding.feature, finding.found, finding.consequence);
+}
+
+void print_sharing(const design::Scene& scene, const std::optional<sim::Plan>& searched, const Ranks& ranks) {
+  std::optional<sim::Rung> rung;
+  if (searched) rung = searched->rung;
+  const std::string shared = design::sharing_sentence(scene, rung, ranks);
+  if (!shared.empty()) fmt::print("  {:<22}  {}\n", "ranks", shared);
 }
 
 }  // namespace
@@ -33,8 +41,11 @@ ExitCode explain_command(const CommonOptions& options) {
                "accuracy", *scene.accuracy_rel);
   for (const std::string& note : scene.target.notes) fmt::print("  {:<22}  {}\n", "target", note);
   fmt::print("  {:<22}  {}\n", "memory", design::memory_need(scene).sentence);
-  if (!scene.variables.empty()) {
-    const sim::Plan searched = design::make_plan(scene, design::family_of(scene));
+  std::optional<sim::Plan> search_plan;
+  if (!scene.variables.empty()) search_plan = design::make_plan(scene, design::family_of(scene));
+  print_sharing(scene, search_plan, *options.ranks);
+  if (search_plan) {
+    const sim::Plan& searched = *search_plan;
     if (searched.rung == shown.rung)
       fmt::print("\ndesign and landscape search with the same rung, {}\n", name(searched.rung));
     else

@@ -43,9 +43,10 @@ ExitCode landscape_command(const CommonOptions& options, const LandscapeOptions&
   SceneRun run(options);
   const design::Scene& scene = run.scene;
   std::vector<design::SearchPath> read;
-  if (scene.landscape)
+  if (scene.landscape && options.leads())
     for (const auto& file : more.paths) read.push_back(read_path(file, scene.landscape->variables));
   design::Landscape result = design::run_landscape(scene, run.control);
+  if (!options.leads()) return ExitCode::done;
   std::move(read.begin(), read.end(), std::back_inserter(result.paths));
   const auto files = report::write_landscape(scene, result, run.out);
   run.line.finish();

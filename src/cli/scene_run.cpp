@@ -16,7 +16,7 @@ namespace {
 std::filesystem::path prepared_folder(const CommonOptions& options, const design::Scene& scene) {
   design::require_memory(scene);
   std::filesystem::path out = options.out_folder();
-  prepare_output_folder(out, report::room_for(scene));
+  if (options.leads()) prepare_output_folder(out, report::room_for(scene));
   return out;
 }
 
@@ -34,9 +34,11 @@ SceneRun::SceneRun(const CommonOptions& options)
       scene(design::read_scene(options.input, options.overrides())),
       out(prepared_folder(options, scene)),
       line(watcher(options), design::objective_unit(scene)),
-      control{&stop_on_signal(), [this](const design::Progress& progress) { line.show(progress); }},
+      control{.stop = &stop_on_signal(),
+              .watch = [this](const design::Progress& progress) { line.show(progress); },
+              .ranks = options.ranks},
       limit_(scene.threads) {
-  if (options.json) json_begin(scene.title, out);
+  if (options.tells_programs()) json_begin(scene.title, out);
   if (options.tells_people()) tell_memory(scene);
 }
 
@@ -47,12 +49,13 @@ void SceneRun::tell_files(report::WrittenFiles files) const {
 }
 
 Watcher watcher(const CommonOptions& options) {
+  if (!options.leads()) return Watcher::nobody;
   return options.json ? Watcher::program : options.quiet ? Watcher::nobody : Watcher::person;
 }
 
 void tell_files(const CommonOptions& options, const report::WrittenFiles& files,
                 const std::filesystem::path& out, const char* more) {
-  if (options.json) json_written(files, out);
+  if (options.tells_programs()) json_written(files, out);
   if (!options.tells_people()) return;
   for (const std::string& note : files.notes)
     fmt::print("{} {}\n", inked("note:", Ink::warning, stdout), note);

@@ -18,6 +18,7 @@ extern "C" void request_stop(int signal) {
 const std::atomic<bool>& stop_on_signal() {
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
+  std::signal(SIGUSR1, request_stop);  // mpirun passes it on and lets its processes end by themselves
   return stop_requested;
 }
 

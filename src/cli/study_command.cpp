@@ -4,24 +4,26 @@
 #include <future>
 
 #include "base/atomic_file.h"
+#include "base/byte_record.h"
+#include "base/recorded_ranks.h"
 #include "cli/commands.h"
 #include "cli/json_lines.h"
 #include "cli/scene_run.h"
 #include "cli/stop_signal.h"
 #include "design/memory_need.h"
 #include "design/metrics.h"
+#include "design/shared_work.h"
 #include "report/result_json.h"
 
 namespace catoptric::cli {
 namespace {
 
 /// What one run came to. A run that fails is a row of the table, not the end of the study.
-report::StudyRow run_one(const design::Study& study, const design::StudyRun& run, design::Scene scene,
-                         const std::filesystem::path& folder, const design::RunControl& control) {
-  report::StudyRow row{run, std::move(scene), {}, {}, ""};
+report::StudyRow run_one(const design::Study& study, const design::StudyRun& run, const design::Scene& scene,
+                         const design::RunControl& control) {
+  report::StudyRow row{run, scene, {}, {}, ""};
   const design::ThreadLimit limit(row.scene->threads);
   try {
-    prepare_output_folder(folder, report::room_for(*row.scene));
     if (study.designs)
       row.designed = design::run_design(*row.scene, control);
     else
@@ -70,6 +72,87 @@ ExitCode exit_code(const std::vector<report::StudyRow>& rows, bool interrupted) 
   return code;
 }
 
+/// The runs of a study one after the other, their rows kept and their files written by rank 0.
+class StudyRunner {
+ public:
+  StudyRunner(const CommonOptions& options, const design::Study& list,
+              const std::vector<design::Scene>& scenes)
+      : options_(options),
+        list_(list),
+        scenes_(scenes),
+        line_(watcher(options), design::objective_unit(scenes.front())),
+        control_{.stop = &stop_on_signal(),
+                 .watch = [this](const design::Progress& p) { line_.show(p); },
+                 .ranks = options.ranks} {
+    rows_.reserve(list.runs.size());  // a row stays where it is while its files are written
+  }
+
+  /// Each run by one rank where there are as many runs as ranks, else each by all ranks.
+  std::vector<report::StudyRow> run() {
+    if (options_.ranks->size() > 1 && list_.runs.size() >= static_cast<std::size_t>(options_.ranks->size()))
+      run_side_by_side();
+    else
+      run_together();
+    if (writing_.valid()) writing_.get();
+    line_.finish();
+    return std::move(rows_);
+  }
+
+  bool stopped() const { return control_.stopped(); }
+
+ private:
+  std::filesystem::path folder(std::size_t i) const { return options_.out_folder() / list_.runs[i].name; }
+
+  void announce(std::size_t i) {
+    line_.set_prefix(fmt::format("run {} ({} of {})", list_.runs[i].name, i + 1, list_.runs.size()));
+  }
+
+  void run_together() {
+    for (std::size_t i = 0; i < list_.runs.size() && !design::stopped_for_all(control_); ++i) {
+      announce(i);
+      if (options_.leads()) prepare_output_folder(folder(i), report::room_for(scenes_[i]));
+      keep(i, run_one(list_, list_.runs[i], scenes_[i], control_));
+    }
+  }
+
+  /// Ranks send what their run's tasks gave; rank 0 repeats the run from that in no time, and writes it.
+  void run_side_by_side() {
+    const auto recorded = [&](std::size_t i) {
+      if (control_.stopped()) return Bytes();
+      announce(i);
+      RecordingRanks recorder;
+      design::RunControl alone = control_;
+      alone.ranks = &recorder;
+      run_one(list_, list_.runs[i], scenes_[i], alone);
+      return ByteWriter().put(recorder.log()).take();
+    };
+    const auto repeated = [&](std::size_t i, const Bytes& log) {
+      if (log.empty()) return;
+      prepare_output_folder(folder(i), report::room_for(scenes_[i]));
+      RepeatingRanks repeating(ByteReader(log).get<JoinLog>());
+      keep(i, run_one(list_, list_.runs[i], scenes_[i], {.ranks = &repeating}));
+    };
+    options_.ranks->join(list_.runs.size(), recorded, repeated, [] { return Bytes(); });
+  }
+
+  /// Files of the run before are written while the next is at work: plots and exchange need no light.
+  void keep(std::size_t i, report::StudyRow row) {
+    if (!options_.leads()) return;
+    rows_.push_back(std::move(row));
+    if (writing_.valid()) writing_.get();
+    writing_ = std::async(std::launch::async,
+                          [&row = rows_.back(), folder = folder(i)] { write_files(row, folder); });
+  }
+
+  const CommonOptions& options_;
+  const design::Study& list_;
+  const std::vector<design::Scene>& scenes_;
+  ProgressLine line_;
+  const design::RunControl control_;
+  std::vector<report::StudyRow> rows_;
+  std::future<void> writing_;
+};
+
 }  // namespace
 
 ExitCode study_command(const CommonOptions& options) {
@@ -82,31 +165,20 @@ ExitCode study_command(const CommonOptions& options) {
   const std::filesystem::path out = options.out_folder();
   std::uint64_t room = 0;
   for (const design::Scene& scene : scenes) room += report::room_for(scene);
-  prepare_output_folder(out, room);
+  if (options.leads()) prepare_output_folder(out, room);
 
-  if (options.json) json_begin(list.title, out);
+  if (options.tells_programs()) json_begin(list.title, out);
   const auto begin = std::chrono::steady_clock::now();
-  ProgressLine line(watcher(options), design::objective_unit(scenes.front()));
-  const design::RunControl control{&stop_on_signal(), [&](const design::Progress& p) { line.show(p); }};
-  std::vector<report::StudyRow> rows;
-  rows.reserve(list.runs.size());  // a row stays where it is while its files are written
-  std::future<void> writing;       // of the run before: plots and exchange need no light
-  for (std::size_t i = 0; i < list.runs.size() && !control.stopped(); ++i) {
-    line.set_prefix(fmt::format("run {} ({} of {})", list.runs[i].name, i + 1, list.runs.size()));
-    const std::filesystem::path folder = out / list.runs[i].name;
-    rows.push_back(run_one(list, list.runs[i], std::move(scenes[i]), folder, control));
-    if (writing.valid()) writing.get();
-    writing = std::async(std::launch::async, [&row = rows.back(), folder] { write_files(row, folder); });
-  }
-  if (writing.valid()) writing.get();
-  line.finish();
+  StudyRunner runner(options, list, scenes);
+  const std::vector<report::StudyRow> rows = runner.run();
+  if (!options.leads()) return ExitCode::done;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const auto files = report::write_study(list, rows, seconds, out);
   if (options.tells_people()) {
     fmt::print("{}\n{}{:.1f} s in all\n", list.title, report::text_table(report::study_table(rows)), seconds);
   }
   tell_files(options, files, out, " and a folder per run");
-  return exit_code(rows, control.stopped());
+  return exit_code(rows, runner.stopped());
 }
 
 }  // namespace catoptric::cli

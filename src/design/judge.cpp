@@ -9,6 +9,7 @@
 #include "design/evaluator.h"
 #include "design/far_field.h"
 #include "design/metrics.h"
+#include "design/shared_work.h"
 #include "design/stage.h"
 
 namespace catoptric::design {
@@ -124,10 +125,24 @@ void fill_fields(Judgement& judgement, const Rows& reflected, const Rows& sharp)
 
 std::vector<Evaluation> evaluations(const Scene& scene, const Target& target, const Candidate& candidate,
                                     sim::Rung rung, std::uint64_t first_stream) {
-  std::vector<Evaluation> list{evaluate_by_rung(scene, rung, candidate, target.samples, first_stream)};
-  if (list.front().rung == sim::Rung::tubes) return list;
-  for (std::uint64_t i = 1; i < scene.model.replicates; ++i)
-    list.push_back(evaluate_by_rung(scene, list.front().rung, candidate, target.samples, first_stream + i));
+  std::vector<Evaluation> list;
+  const auto at = [&](std::uint64_t i) {
+    return evaluate_by_rung(scene, rung, candidate, target.samples, first_stream + i);
+  };
+  if (rung == sim::Rung::tubes) {
+    list.push_back(at(0));
+    rung = list.front().rung;
+    if (rung == sim::Rung::tubes) return list;
+  }
+  const std::uint64_t begun = list.size();
+  if (!shares_replicates(scene, rung, ranks_of(scene))) {
+    for (std::uint64_t i = begun; i < scene.model.replicates; ++i) list.push_back(at(i));
+    return list;
+  }
+  const std::uint64_t left = scene.model.replicates - begun;
+  for (const Bytes& each :
+       ranks_of(scene).share(left, [&](std::size_t i) { return as_bytes(at(begun + i)); }))
+    list.push_back(evaluation_of(each));
   return list;
 }
 
@@ -218,7 +233,8 @@ Judgement judge_to_accuracy(const Scene& scene, const Target& target, const Cand
   request.most_photons = scene.model.most_photons;
   request.fresh_photons_only = fresh_photons_only;
   request.watch = watch;
-  sim::AccurateField field = sim::reach_accuracy(stage.scene, target.samples, request);
+  sim::AccurateField field = accurate_field_of(ranks_of(scene).from_first(
+      [&] { return as_bytes(sim::reach_accuracy(stage.scene, target.samples, request)); }));
   Judgement judgement;
   judgement.rung = field.rung;
   judgement.accuracy = report_of(field, request.relative);

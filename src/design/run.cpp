@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/byte_record.h"
 #include "base/errors.h"
 #include "design/brief.h"
 #include "design/design_space.h"
@@ -14,6 +15,7 @@
 #include "design/metrics.h"
 #include "design/search.h"
 #include "design/search_paths.h"
+#include "design/shared_work.h"
 #include "design/stage.h"
 #include "design/variables.h"
 
@@ -69,7 +71,7 @@ sim::Rung rung_for(const Scene& scene, const LandscapeSpec& spec, const SceneFam
 Judgement verdict(const Scene& scene, const Target& target, const Candidate& candidate,
                   const RunControl& control) {
   try {
-    if (!control.stopped()) return judge(scene, target, candidate, sim::Rung::photons, verdict_stream);
+    if (!stopped_for_all(control)) return judge(scene, target, candidate, sim::Rung::photons, verdict_stream);
   } catch (const Interrupted&) {
   }
   const InBrief brief = in_brief(scene, target);
@@ -95,7 +97,7 @@ Candidate start_candidate(const Scene& scene) {
 }
 
 DesignResult run_design(const Scene& given, const RunControl& control) {
-  const Scene scene = stoppable(given, control.stop);
+  const Scene scene = controlled(given, control);
   if (scene.variables.empty() && scene.search.method != "none")
     throw scene.settings.error("variables", "there is nothing to search",
                                "design moves at least one variable",
@@ -108,17 +110,17 @@ DesignResult run_design(const Scene& given, const RunControl& control) {
   const Stopwatch watch;
   Target target = make_target(scene);
   require_metric(scene, target);
-  RefinedOutcome found =
-      search_in_stages(scene, [&](const Scene& stage) { return search(stage, plan.rung, target, control); });
+  RefinedOutcome found = search_in_stages(
+      scene, [&](const Scene& stage) { return search_by_ranks(stage, plan.rung, target, control); });
   const optim::Outcome& outcome = found.outcome;
-  const double search_seconds = watch.seconds();
+  const double search_seconds = of_first(ranks_of(control), watch.seconds());
   const Candidate best = family_of(found.last).at(outcome.best).value_or(start);
   control.tell({"verify", 1.0, outcome.value < infeasible_floor ? outcome.value : NAN, outcome.evaluations});
   Judgement start_judgement = verdict(scene, target, start, control);
-  Judgement best_judgement = scene.accuracy_rel
-                                 ? judge_to_accuracy(given, make_sharp_target(given), best, verdict_stream,
-                                                     true, watch_accuracy(scene, control, "verify"))
-                                 : verdict(scene, target, best, control);
+  Judgement best_judgement =
+      scene.accuracy_rel ? judge_to_accuracy(shared(given, control), make_sharp_target(given), best,
+                                             verdict_stream, true, watch_accuracy(scene, control, "verify"))
+                         : verdict(scene, target, best, control);
   std::uint64_t photons = emitted(start_judgement) + emitted(best_judgement);
   if (plan.rung != sim::Rung::tubes)
     photons += scene.model.photons.photons * static_cast<std::uint64_t>(outcome.evaluations);
@@ -131,7 +133,7 @@ DesignResult run_design(const Scene& given, const RunControl& control) {
            best.source, names(found.last.variables)},
           photons,
           search_seconds,
-          watch.seconds(),
+          of_first(ranks_of(control), watch.seconds()),
           std::move(found.stages)};
 }
 
@@ -143,7 +145,8 @@ sim::Plan simulation_plan(const Scene& scene, const Candidate& candidate) {
   return sim::make_plan(stage.scene, request);
 }
 
-SimulationResult run_simulation(const Scene& scene, const RunControl& control) {
+SimulationResult run_simulation(const Scene& given, const RunControl& control) {
+  const Scene scene = shared(given, control);
   require_memory(scene);
   const Stopwatch watch;
   const Candidate start = start_candidate(scene);
@@ -161,11 +164,11 @@ SimulationResult run_simulation(const Scene& scene, const RunControl& control) {
           {start.profile, starts(scene.variables), std::move(judgement),
            states(scene.constraints, start.profile), start.source, names(scene.variables)},
           photons,
-          watch.seconds()};
+          of_first(ranks_of(control), watch.seconds())};
 }
 
 Landscape run_landscape(const Scene& given, const RunControl& control) {
-  const Scene scene = stoppable(given, control.stop);
+  const Scene scene = controlled(given, control);
   need_target(scene, "landscape");
   if (!scene.landscape)
     throw scene.settings.error("landscape.variables", "is missing", "landscape needs one or two variables",
@@ -190,20 +193,25 @@ Landscape run_landscape(const Scene& given, const RunControl& control) {
   const sim::Rung rung = rung_for(scene, spec, family, start);
   const std::vector<double> once{0.0};
   const std::vector<double>& second = result.axes.size() > 1 ? result.axes[1] : once;
-  const double points = static_cast<double>(result.axes[0].size() * second.size());
+  const std::size_t points = result.axes[0].size() * second.size();
   double best = std::numeric_limits<double>::quiet_NaN();
-  for (double a : result.axes[0])
-    for (double b : second) {
-      if (control.stopped()) throw Interrupted();
-      std::vector<double> x{a};
-      if (result.axes.size() > 1) x.push_back(b);
-      const double value = value_at(scene, rung, target, family, x);
-      const bool allowed = value < infeasible_floor;
-      result.objective.push_back(allowed ? value : std::numeric_limits<double>::quiet_NaN());
-      if (allowed && (std::isnan(best) || value < best)) best = value;
-      control.tell({"landscape", static_cast<double>(result.objective.size()) / points, best,
-                    static_cast<long>(result.objective.size())});
-    }
+  const auto value = [&](std::size_t i) {
+    if (control.stopped()) throw Interrupted();
+    std::vector<double> x{result.axes[0][i / second.size()]};
+    if (result.axes.size() > 1) x.push_back(second[i % second.size()]);
+    return ByteWriter().put(value_at(scene, rung, target, family, x)).take();
+  };
+  const auto take = [&](std::size_t i, const Bytes& bytes) {
+    const auto found = ByteReader(bytes).get<double>();
+    const bool allowed = found < infeasible_floor;
+    result.objective.push_back(allowed ? found : std::numeric_limits<double>::quiet_NaN());
+    if (allowed && (std::isnan(best) || found < best)) best = found;
+    control.tell({"landscape", static_cast<double>(i + 1) / static_cast<double>(points), best,
+                  static_cast<long>(i + 1)});
+  };
+  const Bytes all =
+      ranks_of(control).join(points, value, take, [&] { return ByteWriter().put(result.objective).take(); });
+  ByteReader(all).get(result.objective);
   result.seconds = watch.seconds();
   return result;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/ranks.h"
 #include "design/judge.h"
 #include "design/refinement.h"
 #include "design/scene.h"
@@ -25,12 +26,15 @@ struct Progress {
   long iterations = 0;    ///< of a search that goes step by step
 };
 
-/// What a caller may do to a run: stop it, watch it, and keep what its search was told. All may be left
-/// empty.
+/// What a caller may do to a run: stop it, watch it, keep what its search was told, and give it ranks to
+/// share its work with. All may be left empty.
 struct RunControl {
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const Progress&)> watch = {};
   optim::SearchTape* tape = nullptr;  ///< of design; goes on where a tape with answers was broken off
+  Ranks* ranks = nullptr;             ///< all of them call with the same; watched and broken off on rank 0
+  /// Set while the evaluations of a search are shared: where it stops for all ranks at once.
+  std::atomic<bool>* stopped_together = nullptr;
   bool stopped() const { return stop && stop->load(std::memory_order_relaxed); }
   void tell(const Progress& progress) const {
     if (watch) watch(progress);

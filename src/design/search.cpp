@@ -11,6 +11,7 @@
 #include "design/far_field.h"
 #include "design/metrics.h"
 #include "design/search_methods.h"
+#include "design/shared_work.h"
 #include "optim/stages.h"
 
 namespace catoptric::design {
@@ -141,6 +142,18 @@ optim::Outcome search(const Scene& scene, sim::Rung rung, const Target& target, 
     outcome.sentence = "stopped on request before there was a value";
   }
   return outcome;
+}
+
+optim::Outcome search_by_ranks(const Scene& scene, sim::Rung rung, const Target& target,
+                               const RunControl& control) {
+  Ranks& ranks = ranks_of(control);
+  if (!shares_evaluations(scene, rung, ranks))
+    return outcome_of(ranks.from_first([&] { return as_bytes(search(scene, rung, target, control)); }));
+  std::atomic<bool> stopped = false;
+  RunControl together = control;
+  together.stop = &stopped;
+  together.stopped_together = &stopped;
+  return search(scene, rung, target, together);
 }
 
 }  // namespace catoptric::design

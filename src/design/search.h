@@ -30,4 +30,9 @@ double value_at(const Scene& scene, sim::Rung rung, const Target& target, const 
 /// @fails InputError, before anything is computed, for a method that this scene does not allow
 optim::Outcome search(const Scene& scene, sim::Rung rung, const Target& target, const RunControl& control);
 
+/// The same by all of the control's ranks: together where shares_evaluations(), else by rank 0 alone, and all
+/// are told.
+optim::Outcome search_by_ranks(const Scene& scene, sim::Rung rung, const Target& target,
+                               const RunControl& control);
+
 }  // namespace catoptric::design

@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 #include "base/errors.h"
 #include "design/constraints.h"
 #include "design/search.h"
+#include "design/shared_work.h"
 #include "optim/hooke_jeeves.h"
 #include "optim/least_squares.h"
 #include "optim/multi_start.h"
@@ -110,14 +112,23 @@ optim::Outcome by_method(const Scene& scene, const Target& target, const optim::
 }  // namespace
 
 optim::Problem light_problem(const Scene& scene, sim::Rung rung, const Target& target,
-                             const SceneFamily& family, const RunControl& control) {
-  const optim::Problem light{scene.variables, [&, rung](std::span<const double> x) {
-                               return value_at(scene, rung, target, family, x);
-                             }};
+                             const SceneFamily& family, const RunControl& control,
+                             Foresight::Rehearse rehearse) {
+  optim::Problem light{scene.variables, [&, rung](std::span<const double> x) {
+                         return value_at(scene, rung, target, family, x);
+                       }};
+  std::shared_ptr<Foresight> foresight;
+  if (control.stopped_together) {
+    foresight = std::make_shared<Foresight>(ranks_of(control), light, std::move(rehearse),
+                                            scene.model.photons.stop, *control.stopped_together);
+    light.evaluate = [foresight](std::span<const double> x) { return foresight->evaluate(x); };
+  }
   const optim::Problem remembered = control.tape ? optim::remembering(light, *control.tape) : light;
-  return {scene.variables, [evaluate = remembered.evaluate](std::span<const double> x) {
+  return {scene.variables, [foresight, evaluate = remembered.evaluate](std::span<const double> x) {
             try {
-              return evaluate(x);
+              const double value = evaluate(x);
+              if (foresight) foresight->know(x, value);
+              return value;
             } catch (const Interrupted&) {
               return std::numeric_limits<double>::infinity();
             }
@@ -127,20 +138,29 @@ optim::Problem light_problem(const Scene& scene, sim::Rung rung, const Target& t
 optim::Outcome search_once(const Scene& scene, sim::Rung rung, const Target& target,
                            const RunControl& control) {
   const SceneFamily family = family_of(scene);
+  const auto run = [&](const optim::Problem& problem, Telling& telling, optim::SearchTape* tape,
+                       const std::function<bool()>& stop_requested) {
+    optim::SearchLimits limits;
+    limits.most_evaluations = scene.search.most_evaluations;
+    if (scene.search.reach) limits.reach = *scene.search.reach;
+    limits.stop_requested = stop_requested;
+    const auto one_search = [&](const optim::StartedSearch& one) {
+      return by_method(scene, target, one, telling, tape);
+    };
+    if (scene.search.restarts == 0) return one_search({problem, limits, scene.seed});
+    return optim::multi_start(problem, one_search,
+                              {.limits = limits, .most_restarts = scene.search.restarts, .seed = scene.seed});
+  };
+  const auto rehearse = [&](const optim::Problem& guessed, const std::function<bool()>& enough) {
+    const RunControl nobody;
+    Telling silent(scene, nobody);
+    run(guessed, silent, nullptr, enough);
+  };
   Telling telling(scene, control);
-  const optim::Problem light = light_problem(scene, rung, target, family, control);
+  const optim::Problem light = light_problem(scene, rung, target, family, control, rehearse);
   const optim::Problem problem{
       scene.variables, [&](std::span<const double> x) { return telling.evaluated(light.evaluate(x)); }};
-  optim::SearchLimits limits;
-  limits.most_evaluations = scene.search.most_evaluations;
-  if (scene.search.reach) limits.reach = *scene.search.reach;
-  limits.stop_requested = [&] { return control.stopped(); };
-  const auto one_search = [&](const optim::StartedSearch& one) {
-    return by_method(scene, target, one, telling, control.tape);
-  };
-  if (scene.search.restarts == 0) return one_search({problem, limits, scene.seed});
-  return optim::multi_start(problem, one_search,
-                            {.limits = limits, .most_restarts = scene.search.restarts, .seed = scene.seed});
+  return run(problem, telling, control.tape, [&] { return control.stopped(); });
 }
 
 }  // namespace catoptric::design

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "design/foresight.h"
 #include "design/run.h"
 #include "design/scene.h"
 #include "design/target.h"
@@ -11,10 +12,12 @@
 namespace catoptric::design {
 
 /// The objective as searches ask for it: answers are remembered where the control has a tape, and an
-/// evaluation that the user broke off has no value: infinity, which is not remembered.
-/// @in    all but `rung` outlive the result
+/// evaluation that the user broke off has no value: infinity, which is not remembered. Where the control says
+/// that evaluations are shared, ranks compute what `rehearse` finds will be asked for next.
+/// @in    all but `rung` and `rehearse` outlive the result
 optim::Problem light_problem(const Scene& scene, sim::Rung rung, const Target& target,
-                             const SceneFamily& family, const RunControl& control);
+                             const SceneFamily& family, const RunControl& control,
+                             Foresight::Rehearse rehearse = {});
 
 /// One search with one kernel, restarts included.
 optim::Outcome search_once(const Scene& scene, sim::Rung rung, const Target& target,

@@ -11,6 +11,7 @@
 #include "design/evaluator.h"
 #include "design/metrics.h"
 #include "design/search.h"
+#include "design/shared_work.h"
 
 namespace catoptric::design {
 namespace {
@@ -77,10 +78,12 @@ std::vector<SearchPath> search_paths(const Scene& scene, const Target& target, c
   std::vector<Scene> begun{scene};
   for (const auto& start : scene.landscape->starts) begun.push_back(begun_at(scene, start, places));
   std::vector<SearchPath> paths;
-  for (std::size_t i = 0; i < begun.size(); ++i) {
-    paths.push_back(path_of(name_of(i), begun[i], search(begun[i], rung, target, control), places));
+  const auto searched = ranks_of(control).share(begun.size(), [&](std::size_t i) {
+    const SearchPath path = path_of(name_of(i), begun[i], search(begun[i], rung, target, control), places);
     if (control.stopped()) throw Interrupted();
-  }
+    return as_bytes(path);
+  });
+  for (const Bytes& path : searched) paths.push_back(search_path_of(path));
   return paths;
 }
 

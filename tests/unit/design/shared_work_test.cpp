@@ -1,0 +1,73 @@
+#include "design/shared_work.h"
+
+#include <catch2/catch.hpp>
+
+#include "base/byte_record.h"
+
+using namespace catoptric;
+using namespace catoptric::design;
+
+namespace {
+
+class SoManyRanks : public Ranks {
+ public:
+  explicit SoManyRanks(int size) : size_(size) {}
+  int size() const override { return size_; }
+
+ private:
+  int size_;
+};
+
+Scene scene_with(const char* photons, const char* replicates) {
+  return read_scene(std::string(CATOPTRIC_DATA) + "/paper/paraboloid.toml",
+                    {{"model.photons", photons, "test"},
+                     {"model.replicates", replicates, "test"},
+                     {"model.kernel_radius", "0.5", "test"}});
+}
+
+bool replicates_are_shared(const char* photons, const char* replicates, int ranks) {
+  return shares_replicates(scene_with(photons, replicates), sim::Rung::photons, SoManyRanks(ranks));
+}
+
+}  // namespace
+
+TEST_CASE("ranks share replicates or the batches of each by what keeps them busier") {
+  CHECK(replicates_are_shared("100000", "8", 64));       // one batch
+  CHECK(replicates_are_shared("1000000000", "8", 4));    // 8 of 4, 60 of 4: as busy, fewer messages
+  CHECK(!replicates_are_shared("1000000000", "8", 64));  // 8 of 64, 60 of 64
+  CHECK(!replicates_are_shared("4294967295", "233", 64));
+  CHECK(shares_replicates(scene_with("4294967295", "8"), sim::Rung::rings, SoManyRanks(64)));
+}
+
+TEST_CASE("what ranks send each other is read back as it was") {
+  optim::Outcome outcome{};
+  outcome.ending = optim::Ending::evaluation_limit;
+  outcome.sentence = "stopped";
+  outcome.best = {1.5, -2};
+  outcome.value = 0.25;
+  outcome.start_value = 4;
+  outcome.successes = 1;
+  outcome.iterations = 2;
+  outcome.evaluations = 3;
+  outcome.cache_hits = 4;
+  outcome.restarts = 5;
+  outcome.history = {{0, 1, 2, 0.5, "start", {1, 2}, 4}, {1, 2, 3, 0.25, "pattern", {1.5, -2}, 0.25}};
+  const optim::Outcome again = outcome_of(as_bytes(outcome));
+  CHECK(as_bytes(again) == as_bytes(outcome));
+  CHECK(again.restarts == 5);
+  CHECK(again.history.back().move == "pattern");
+  CHECK(again.history.back().x == outcome.best);
+
+  sim::AccurateField field;
+  field.sentence = "proven";
+  field.breaks = "an edge";
+  field.by_set = {{1, 2}, {3}};
+  field.stages = {{512, 0.5}, {1024, 0.25}};
+  field.counts.interactions = 7;
+  const sim::AccurateField known = accurate_field_of(as_bytes(field));
+  CHECK(known.breaks == field.breaks);
+  CHECK(known.by_set == field.by_set);
+  CHECK(known.stages.back().error95_rel == 0.25);
+  CHECK(known.counts.interactions == 7);
+  CHECK(as_bytes(known) == as_bytes(field));
+}
