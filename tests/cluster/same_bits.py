@@ -2,7 +2,7 @@
 """Runs one command by one process and by 1, 2 and 3 ranks and compares the bytes of all files but for times; kills
 a rank, fails a rank, breaks a search off and resumes it on another number of ranks.
 
-Usage: same_bits.py PROGRAM SCENES (data/paper); ends with 77 where there is no mpirun or the program has no MPI."""
+Usage: same_bits.py PROGRAM SCENES (data/paper); ends with 77 where mpirun is not there or cannot start anything, or the program has no MPI."""
 import json
 import os
 import pathlib
@@ -180,6 +180,11 @@ def failures(work):
 def main():
     if not shutil.which("mpirun") or not (PROGRAM.parent / "catoptric_mpi.so").exists():
         print("no mpirun, or built without MPI: nothing compared")
+        sys.exit(77)
+    # A machine may have Open MPI and forbid what it needs (sockets, shared memory): that is no fault of the program's.
+    bare = subprocess.run(["mpirun", "--oversubscribe", "-n", "2", "true"], env=ENVIRONMENT, capture_output=True, text=True)
+    if bare.returncode != 0:
+        print(f"mpirun cannot start anything here: nothing compared\n{bare.stderr}")
         sys.exit(77)
     start_a, paraboloid = SCENES / "start_a.toml", SCENES / "paraboloid.toml"
     with tempfile.TemporaryDirectory() as folder:
