@@ -48,13 +48,13 @@ double debiased_value(Metric metric, const Scene& scene, const Target& target, c
   return metric == Metric::rmse ? to_w_per_m2(clean) : rmse > 0 ? value * clean / rmse : 0.0;
 }
 
-/// How far noise that picks out extremes may move a ratio with the least, among the samples that count.
+/// How far noise that picks out extremes may move a ratio with the least, among the lit samples.
 double ratio_margin(Metric metric, double value, const Spread& fields, const std::vector<double>& direct,
                     const Target& target) {
   Spread counting;
   double average = 0, greatest = 0;
   for (std::size_t i = 0; i < fields.mean.size(); ++i) {
-    if (i < target.within_reach.size() && !target.within_reach[i]) continue;
+    if (!target.lit[i] || (!target.weights.empty() && target.weights[i] == 0)) continue;  // as the metric
     counting.mean.push_back(direct[i] + fields.mean[i]);
     counting.variance_of_mean.push_back(fields.variance_of_mean[i]);
     average += counting.mean.back();

@@ -68,31 +68,12 @@ Json luminaire_json(const design::Scene& scene, const LuminaireIntensity& lumina
           {"version", version()}};
 }
 
-/// Both sides of one plane as a curve over the angle to the axis, C + 180 to the left.
-Curve section(const LuminaireIntensity& luminaire, double c_deg) {
-  Curve curve{fmt::format("C{:g}, C{:g}", c_deg, c_deg + 180), {}, {}};
-  const std::vector<double>& gamma = luminaire.table.gamma_deg();
-  for (auto angle = gamma.rbegin(); angle != gamma.rend(); ++angle) {
-    curve.x.push_back(-*angle);
-    curve.y.push_back(luminaire.table.at(*angle, c_deg + 180));
-  }
-  for (const double angle : gamma) {
-    curve.x.push_back(angle);
-    curve.y.push_back(luminaire.table.at(angle, c_deg));
-  }
-  return curve;
-}
-
 std::vector<NamedFigure> figures(const LuminaireIntensity& luminaire) {
-  LineFigure figure{"Intensity by the angle to the axis",
-                    "angle to the axis (degrees)",
-                    fmt::format("intensity ({})", Units(luminaire).intensity),
-                    {},
-                    {}};
-  for (const double c_deg : {0.0, 45.0, 90.0, 135.0}) {
-    if (c_deg > 0 && luminaire.table.is_rotational()) continue;
-    figure.curves.push_back(section(luminaire, c_deg));
-  }
+  const LineFigure figure{"Intensity by the angle to the axis",
+                          "angle to the axis (degrees)",
+                          fmt::format("intensity ({})", Units(luminaire).intensity),
+                          intensity_sections(luminaire),
+                          {}};
   return {{"intensity", "Intensity by the angle to the axis", line_script(figure)}};
 }
 

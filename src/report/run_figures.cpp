@@ -312,7 +312,7 @@ LandscapeFigure landscape_of_two(const design::Scene& scene, const design::Lands
 }
 
 /// Both sides of one plane over the angle to the axis, C + 180 on the other one.
-Curve polar_section(const design::LuminaireIntensity& luminaire, double c_deg) {
+Curve section_of(const design::LuminaireIntensity& luminaire, double c_deg) {
   const bool round = luminaire.table.is_rotational();
   Curve curve{round ? "all C" : fmt::format("C{:g}, C{:g}", c_deg, c_deg + 180), {}, {}};
   const std::vector<double>& gamma = luminaire.table.gamma_deg();
@@ -424,13 +424,19 @@ NamedFigure landscape_picture(const design::Scene& scene, const design::Landscap
           landscape_contour_script(landscape_of_two(scene, landscape))};
 }
 
+std::vector<Curve> intensity_sections(const design::LuminaireIntensity& luminaire) {
+  std::vector<Curve> sections;
+  for (const double c_deg : {0.0, 45.0, 90.0, 135.0}) {
+    if (c_deg > 0 && luminaire.table.is_rotational()) continue;
+    sections.push_back(section_of(luminaire, c_deg));
+  }
+  return sections;
+}
+
 NamedFigure polar_picture(const design::LuminaireIntensity& luminaire) {
   PolarFigure figure{
       "Intensity", fmt::format("intensity ({})", printed(intensity_unit(luminaire.table.quantity()))), {}};
-  for (const double c_deg : {0.0, 45.0, 90.0, 135.0}) {
-    if (c_deg > 0 && luminaire.table.is_rotational()) continue;
-    figure.curves.push_back(polar_section(luminaire, c_deg));
-  }
+  figure.curves = intensity_sections(luminaire);
   return {"intensity-polar", "Intensity by the angle to the axis of the beam, which points down",
           polar_script(figure)};
 }

@@ -5,6 +5,7 @@
 
 #include "design/luminaire.h"
 #include "design/run.h"
+#include "report/figures.h"
 #include "report/run_tables.h"
 
 namespace catoptric::report {
@@ -36,6 +37,10 @@ std::vector<NamedFigure> study_figures(const std::vector<StudyRow>& rows);
 
 /// The first of the landscape's figures alone: contours, or the line, with the search paths.
 NamedFigure landscape_picture(const design::Scene& scene, const design::Landscape& landscape);
+
+/// Intensity over the angle to the axis in planes through it, 45 degrees apart: C to the right, C + 180 to
+/// the left; one curve where all planes are alike.
+std::vector<Curve> intensity_sections(const design::LuminaireIntensity& luminaire);
 
 /// Intensity as a polar diagram: one plane where the light is alike all round, else four.
 NamedFigure polar_picture(const design::LuminaireIntensity& luminaire);
