@@ -118,7 +118,7 @@ ReadFaces unpack(const std::string& bytes, const std::filesystem::path& file) {
 class FacetShape final : public SurfaceShape {
  public:
   FacetShape(const Facets& facets, const Vector3& center_mm, double size_mm)
-      : center_mm_(center_mm), size_mm_(size_mm), scene_(mesh_of(facets)) {
+      : center_mm_(center_mm), size_mm_(size_mm), scene_(mesh_of(facets)), outlines_(facets.outlines()) {
     for (const auto& [a, b, c] : facets.corners) {
       const Vector3 &from = facets.points_mm[a], along = facets.points_mm[b] - from;
       normals_.push_back(along.cross(facets.points_mm[c] - from).stableNormalized());
@@ -142,6 +142,8 @@ class FacetShape final : public SurfaceShape {
     return Meeting{distance_mm, normals_[triangle], triangle};
   }
 
+  std::vector<std::vector<Vector3>> outlines() const override { return outlines_; }
+
  private:
   static constexpr double start_above = 1e-5;  ///< a hundred times a float's resolution of the part
   static constexpr double ball = 1.001;        ///< what rounding may lift a corner by
@@ -161,6 +163,7 @@ class FacetShape final : public SurfaceShape {
   double size_mm_;
   detail::TriangleScene scene_;
   std::vector<Vector3> normals_;
+  std::vector<std::vector<Vector3>> outlines_;
 };
 
 void check_chord(double chord_error) {

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/byte_record.h"
 #include "base/errors.h"
 #include "base/ordered_sum.h"
 #include "sim/bandwidth_ladder.h"
@@ -18,7 +19,6 @@
 namespace catoptric::sim {
 namespace {
 
-constexpr std::uint64_t sets_of_photons = 4;  ///< fewer give no spread, more waste the points' evenness
 constexpr std::uint64_t first_photons = 512;  ///< of a set: enough for a forecast
 constexpr std::size_t probes_smooth = 128;    ///< samples by which a stage is judged
 constexpr std::size_t probes_broken = 512;    ///< where what counts may lie along a line
@@ -110,7 +110,18 @@ class PhotonStages {
     field_.spent_photons += sets_of_photons * plan.photons;
     judge(plan);
     field_.stages.push_back({sets_of_photons * plan.photons, field_.error95_rel});
-    stopped_ = request_.watch && !request_.watch(field_.spent_photons, field_.error95_rel);
+    stopped_ = !goes_on();
+  }
+
+  /// As the one who watches rank 0 says.
+  bool goes_on() const {
+    if (!request_.watch) return true;
+    Ranks& ranks = request_.photons.ranks ? *request_.photons.ranks : lone_process();
+    return ranks
+               .from_first([&] {
+                 return ByteWriter().put(request_.watch(field_.spent_photons, field_.error95_rel)).take();
+               })
+               .front() != 0;
   }
 
   const LadderLevel& chosen() const { return ladder_[choice_.level]; }

@@ -69,7 +69,8 @@ KernelRange kernel_range(const Scene& scene, Rung rung);
 /// statistics; else sets of photons on the cheapest valid rung, each stage with as many photons as the one
 /// before lets expect to suffice, looked at with the bandwidth and order of least error (best_choice).
 /// @in    samples on the near field
-/// @out   the same bits for any number of threads; where the accuracy could not be proven, the best field
+/// @out   the same bits for any number of threads and ranks, which share the photons; where the accuracy
+/// could not be proven, the best field
 ///        there is, and a sentence that says how far it got
 /// @fails InputError for an accuracy that is not above 0, a wanted rung that is not valid, fewer photons
 ///        allowed than the first look takes (2048)

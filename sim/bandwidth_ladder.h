@@ -26,12 +26,19 @@ struct LadderLevel {
 /// widest first.
 using BandwidthLadder = std::vector<LadderLevel>;
 
+/// How many of so many photons of rung photons, all sets together, one of so many ranks keeps at most.
+std::uint64_t most_kept_by_a_rank(std::uint64_t photons, int ranks);
+
 /// The widest kernel that a field can be looked at with: half of its smaller half width. Beyond it no
 /// estimate is local.
 double widest_kernel_radius_mm(const NearField& field);
 
+/// Sets that a proof of accuracy takes: fewer give no spread, more waste the points' evenness.
+inline constexpr std::uint64_t sets_of_photons = 4;
+
 /// Independent sets of photons of one size, kept so that they can be looked at with any bandwidth. What all
-/// sets share, and all sizes, is prepared once.
+/// sets share, and all sizes, is prepared once. Several ranks keep a part of the photons each, and all come
+/// to the same calls.
 class PhotonSets {
  public:
   /// @in    rung rings or photons, valid for the scene; the scene must outlive this
@@ -41,9 +48,10 @@ class PhotonSets {
 
   /// Lets the sets fly, in place of those before: set i on stream + i.
   /// @in    photons of one set; the widest radius that will be looked at
-  /// @out   the same bits for any number of threads
+  /// @out   the same bits for any number of threads and ranks
   /// @fails as trace_photons or RingPhotons
-  /// @cost  all sets are in memory: 17 bytes a photon, for rings 8 bytes a bin
+  /// @cost  all sets are in memory: 17 bytes a photon, for rings 8 bytes a bin. options.ranks share them: by
+  ///        sets of rings, by sets and slices of 2^20 photons or more, 64 a set at most, of rung photons
   void fly(const PhotonOptions& options, std::size_t sets, double widest_radius_mm);
 
   /// @in    samples on the near field; radii down to widest_radius_mm / sqrt(2)^levels
@@ -57,7 +65,7 @@ class PhotonSets {
   /// Which cells samples lie in, and how much light falls on each, W to a common factor, as far as some
   /// thousand photons tell.
   std::vector<std::uint32_t> cells_of(std::span<const FieldSample> samples) const;
-  std::vector<double> light_by_cell() const;
+  const std::vector<double>& light_by_cell() const;
 
   /// One reading at other samples: as look() gives it, to rounding.
   /// @in   order 2 or 4

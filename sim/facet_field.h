@@ -28,6 +28,8 @@ class FacetField {
     return facets_->corner_mm(facet, corner);
   }
 
+  std::vector<std::vector<Vector3>> outlines() const { return facets_->outlines(); }
+
   /// The nearest meeting ahead; its normal is the lit one.
   std::optional<Meeting> meet(const Ray& ray, bool starts_here, double reach_mm) const;
 

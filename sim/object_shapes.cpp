@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/errors.h"
@@ -46,6 +47,21 @@ std::optional<double> plane_distance(const Ray& ray, const Vector3& center_mm, c
   return distance_mm;
 }
 
+using Lines = std::vector<std::vector<Vector3>>;
+
+/// A stretch of a circle about the third column of a frame.
+std::vector<Vector3> arc(const Vector3& center_mm, const Eigen::Matrix3d& frame, double radius_mm,
+                         double from_rad = 0, double to_rad = 2 * pi) {
+  constexpr int steps = 72;
+  std::vector<Vector3> points;
+  for (int i = 0; i <= steps; ++i) {
+    const double angle = from_rad + (to_rad - from_rad) * i / steps;
+    points.emplace_back(center_mm +
+                        radius_mm * (std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1)));
+  }
+  return points;
+}
+
 class Disc final : public SurfaceShape {
  public:
   Disc(const Vector3& center_mm, const Vector3& normal, double radius_mm, double inner_radius_mm)
@@ -61,6 +77,13 @@ class Disc final : public SurfaceShape {
     const double square = (ray.origin_mm + *distance_mm * ray.direction - center_mm_).squaredNorm();
     if (square > outer_square_ || square < inner_square_) return std::nullopt;
     return Meeting{*distance_mm, normal_};
+  }
+
+  Lines outlines() const override {
+    const Eigen::Matrix3d frame = frame_about(normal_);
+    Lines lines{arc(center_mm_, frame, std::sqrt(outer_square_))};
+    if (inner_square_ > 0) lines.push_back(arc(center_mm_, frame, std::sqrt(inner_square_)));
+    return lines;
   }
 
   bool is_round() const override {
@@ -91,6 +114,12 @@ class Rectangle final : public SurfaceShape {
     return Meeting{*distance_mm, frame_.col(2)};
   }
 
+  Lines outlines() const override {
+    const Vector3 u = half_width_mm_ * frame_.col(0), v = half_height_mm_ * frame_.col(1);
+    const Vector3 first = center_mm_ - u - v;
+    return {{first, first + 2 * u, first + 2 * u + 2 * v, first + 2 * v, first}};
+  }
+
  private:
   Vector3 center_mm_;
   Eigen::Matrix3d frame_;
@@ -117,6 +146,17 @@ class Tube final : public SurfaceShape {
       return Meeting{t, (frame_.leftCols<2>() * at).normalized()};
     }
     return std::nullopt;
+  }
+
+  Lines outlines() const override {
+    const Vector3 up = half_length_mm_ * frame_.col(2);
+    Lines lines{arc(center_mm_ - up, frame_, radius_mm_), arc(center_mm_ + up, frame_, radius_mm_)};
+    for (const double side : {-1.0, 1.0})
+      for (const int column : {0, 1}) {
+        const Vector3 at = center_mm_ + side * radius_mm_ * frame_.col(column);
+        lines.push_back({at - up, at + up});
+      }
+    return lines;
   }
 
   bool is_round() const override {
@@ -151,12 +191,29 @@ class Cap final : public SurfaceShape {
     return std::nullopt;
   }
 
+  /// Two arcs through the pole and the rim; of a whole sphere the equator.
+  Lines outlines() const override {
+    const Eigen::Matrix3d frame = frame_about(axis_);
+    const double half_rad = is_whole() ? pi : std::acos(std::clamp(least_cosine_, -1.0, 1.0));
+    Lines lines;
+    for (const int column : {0, 1}) {
+      Eigen::Matrix3d upright;
+      upright << axis_, frame.col(column), frame.col(1 - column);
+      lines.push_back(arc(center_mm_, upright, radius_mm_, -half_rad, half_rad));
+    }
+    const double height_mm = is_whole() ? 0 : radius_mm_ * least_cosine_;
+    lines.push_back(arc(center_mm_ + height_mm * axis_, frame,
+                        std::sqrt(std::max(0.0, radius_mm_ * radius_mm_ - height_mm * height_mm))));
+    return lines;
+  }
+
   bool is_round() const override {
-    const bool whole = least_cosine_ == -HUGE_VAL;
-    return is_on_axis(center_mm_, radius_mm_) && (whole || is_along_axis(axis_));
+    return is_on_axis(center_mm_, radius_mm_) && (is_whole() || is_along_axis(axis_));
   }
 
  private:
+  bool is_whole() const { return least_cosine_ == -HUGE_VAL; }
+
   Vector3 center_mm_, axis_;
   double radius_mm_, least_cosine_, sign_;
 };

@@ -82,6 +82,10 @@ class Description {
                                 : "its axis is tilted: light differs from azimuth to azimuth");
     add("source's size", extended ? fmt::format("{:g} mm about its position", light.extent_mm()) : "none",
         (extended ? "photons start all over it; " : "left out: ") + light.left_out());
+    if (extended && scene_.is_bare())
+      add("lamp's own body", "none",
+          "left out: light passes where the lamp is; a board or holder that stops it is an object "
+          "([objects.NAME])");
   }
 
   void mirror() {

@@ -195,23 +195,30 @@ StoredChunk store(std::span<const Crossing> crossings, const RecordedArea& area,
   return chunk;
 }
 
-TracedPhotons trace_photons(const PhotonFlights& flights, const PhotonOptions& options) {
-  check(options);
+TracedPhotons trace_chunks(const PhotonFlights& flights, const PhotonOptions& options, std::uint64_t first,
+                           std::uint64_t end, FlightCounts& counted) {
   TracedPhotons traced;
   traced.area = flights.area();
-  traced.chunks.resize(PhotonFlights::chunks(options.photons));
-  const FlightTotals totals = flights.fly(options, [&](std::uint64_t i, std::vector<Crossing>&& crossings) {
-    traced.chunks[i] = store(crossings, traced.area);
-  });
-  traced.photon_power_w = totals.photon_power_w;
-  traced.energy = totals.energy;
-  traced.counts = totals.counts;
+  traced.photon_power_w = flights.photon_power_w(options.photons);
+  traced.chunks.resize(end - first);
+  counted = flights.fly_chunks(
+      options,
+      [&](std::uint64_t i, std::vector<Crossing>&& crossings) {
+        traced.chunks[i - first] = store(crossings, traced.area);
+      },
+      first, end);
   return traced;
 }
 
 TracedPhotons trace_photons(const Scene& scene, const PhotonOptions& options, double margin_mm) {
   check(options);
-  return trace_photons(PhotonFlights(scene, RecordedArea::about(scene.near_field, margin_mm)), options);
+  const PhotonFlights flights(scene, RecordedArea::about(scene.near_field, margin_mm));
+  FlightCounts counted;
+  TracedPhotons traced = trace_chunks(flights, options, 0, PhotonFlights::chunks(options.photons), counted);
+  const FlightTotals totals = flights.totals(options.photons, counted);
+  traced.energy = totals.energy;
+  traced.counts = totals.counts;
+  return traced;
 }
 
 }  // namespace catoptric::sim

@@ -184,7 +184,9 @@ FlightTotals depart(const Scene& scene, const PhotonOptions& options, const Take
 /// @cost  photons times one or two intersections; 17 bytes per crossing
 /// @from  paper section 4.4, stage 1
 TracedPhotons trace_photons(const Scene& scene, const PhotonOptions& options, double margin_mm);
-/// The same with flights prepared before, for several sets.
-TracedPhotons trace_photons(const PhotonFlights& flights, const PhotonOptions& options);
+/// Chunks `first` .. `end` - 1 of a set alone, with flights prepared before.
+/// @out   without energy and counts, which are the set's: what was counted of these is `counted`
+TracedPhotons trace_chunks(const PhotonFlights& flights, const PhotonOptions& options, std::uint64_t first,
+                           std::uint64_t end, FlightCounts& counted);
 
 }  // namespace catoptric::sim

@@ -26,7 +26,10 @@ class ByteWriter {
   template <class Value>
   ByteWriter& put(const std::vector<Value>& list) {
     put(static_cast<std::uint64_t>(list.size()));
-    for (const Value& each : list) put(each);
+    if constexpr (std::is_trivially_copyable_v<Value>)
+      bytes_.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(Value));
+    else
+      for (const Value& each : list) put(each);
     return *this;
   }
   std::string take() { return std::move(bytes_); }
@@ -55,7 +58,14 @@ class ByteReader {
   template <class Value>
   ByteReader& get(std::vector<Value>& list) {
     list.clear();
-    for (auto left = get<std::uint64_t>(); left > 0; --left) list.push_back(get<Value>());
+    const auto size = get<std::uint64_t>();
+    if constexpr (std::is_trivially_copyable_v<Value>) {
+      if (size > (bytes_.size() - at_) / sizeof(Value)) next(bytes_.size() + 1);  // refuses
+      list.resize(size);
+      if (size > 0) std::memcpy(list.data(), next(size * sizeof(Value)), size * sizeof(Value));
+    } else {
+      for (auto left = size; left > 0; --left) list.push_back(get<Value>());
+    }
     return *this;
   }
   template <class Value>

@@ -17,11 +17,20 @@ std::vector<Bytes> Ranks::share(std::size_t count, const Compute& compute) {
   return ByteReader(all).get<std::vector<Bytes>>();
 }
 
+std::vector<Bytes> Ranks::each(const ComputeOwn& compute) {
+  return {from_first([&] { return compute(0, 1); })};
+}
+
 Bytes Ranks::from_first(const std::function<Bytes()>& compute) {
   Bytes only;
   return join(
       1, [&](std::size_t) { return compute(); }, [&](std::size_t, Bytes result) { only = std::move(result); },
       [&] { return std::move(only); });
+}
+
+Ranks& lone_process() {
+  static Ranks ranks;
+  return ranks;
 }
 
 }  // namespace catoptric

@@ -42,8 +42,18 @@ class Ranks {
   /// All results, on every rank.
   std::vector<Bytes> share(std::size_t count, const Compute& compute);
 
+  /// What each rank computes about what it keeps in its own memory; the ranks that do so are numbered.
+  using ComputeOwn = std::function<Bytes(std::size_t rank, std::size_t ranks)>;
+
+  /// Each rank computes once, and all get all results, by rank. Inside a task a rank is the only one.
+  /// @fails on every rank alike with the error of the first rank that failed
+  virtual std::vector<Bytes> each(const ComputeOwn& compute);
+
   /// What rank 0 computes, on every rank.
   Bytes from_first(const std::function<Bytes()>& compute);
 };
+
+/// A process without others.
+Ranks& lone_process();
 
 }  // namespace catoptric

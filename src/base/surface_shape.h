@@ -25,6 +25,9 @@ class SurfaceShape {
   /// @in    starts_here: the ray starts where it met this surface before, and does not meet it there again
   virtual std::optional<Meeting> meet(const Ray& ray, bool starts_here, double reach_mm) const = 0;
 
+  /// Lines on it that show a person where it is, mm.
+  virtual std::vector<std::vector<Vector3>> outlines() const = 0;
+
   /// Whether it certainly is one of revolution about the z axis, to a billionth of its size.
   virtual bool is_round() const { return false; }
 };
@@ -36,6 +39,15 @@ struct Facets {
 
   const Vector3& corner_mm(std::size_t facet, std::size_t corner) const {
     return points_mm[corners[facet][corner]];
+  }
+
+  /// Borders of the facets, of very many an even selection: what SurfaceShape::outlines() gives.
+  std::vector<std::vector<Vector3>> outlines() const {
+    constexpr std::size_t most = 600;
+    std::vector<std::vector<Vector3>> lines;
+    for (std::size_t facet = 0; facet < corners.size(); facet += 1 + corners.size() / most)
+      lines.push_back({corner_mm(facet, 0), corner_mm(facet, 1), corner_mm(facet, 2), corner_mm(facet, 0)});
+    return lines;
   }
 };
 

@@ -40,7 +40,7 @@ ExitCode explain_command(const CommonOptions& options) {
     fmt::print("  {:<22}  photons and bandwidth are found until the relative error is at most {:g} (95 %)\n",
                "accuracy", *scene.accuracy_rel);
   for (const std::string& note : scene.target.notes) fmt::print("  {:<22}  {}\n", "target", note);
-  fmt::print("  {:<22}  {}\n", "memory", design::memory_need(scene).sentence);
+  fmt::print("  {:<22}  {}\n", "memory", design::memory_need(scene, options.ranks->size()).sentence);
   std::optional<sim::Plan> search_plan;
   if (!scene.variables.empty()) search_plan = design::make_plan(scene, design::family_of(scene));
   print_sharing(scene, search_plan, *options.ranks);

@@ -23,8 +23,9 @@ namespace {
 using namespace catoptric;
 using namespace catoptric::cli;
 
-/// Commands that share their work; any other is rank 0's alone (tradeoff measures times).
-const std::set<std::string_view> shared_commands{"design", "simulate", "landscape", "study"};
+/// Commands that share their work; any other is rank 0's alone.
+const std::set<std::string_view> shared_commands{"design", "simulate",    "landscape",
+                                                 "study",  "sensitivity", "tradeoff"};
 
 ExitCode run(const CommandLine& line, Ranks& ranks) {
   CommonOptions common = line.common;

@@ -14,16 +14,16 @@ namespace catoptric::cli {
 namespace {
 
 std::filesystem::path prepared_folder(const CommonOptions& options, const design::Scene& scene) {
-  design::require_memory(scene);
+  design::require_memory(scene, options.ranks->size());
   std::filesystem::path out = options.out_folder();
   if (options.leads()) prepare_output_folder(out, report::room_for(scene));
   return out;
 }
 
 /// A large need is said before it is felt.
-void tell_memory(const design::Scene& scene) {
+void tell_memory(const design::Scene& scene, int ranks) {
   constexpr std::uint64_t worth_a_line = 1'000'000'000;
-  const design::MemoryNeed need = design::memory_need(scene);
+  const design::MemoryNeed need = design::memory_need(scene, ranks);
   if (need.bytes >= worth_a_line) fmt::print(stderr, "catoptric: memory: {}\n", need.sentence);
 }
 
@@ -39,7 +39,7 @@ SceneRun::SceneRun(const CommonOptions& options)
               .ranks = options.ranks},
       limit_(scene.threads) {
   if (options.tells_programs()) json_begin(scene.title, out);
-  if (options.tells_people()) tell_memory(scene);
+  if (options.tells_people()) tell_memory(scene, options.ranks->size());
 }
 
 void SceneRun::tell_files(report::WrittenFiles files) const {

@@ -8,6 +8,7 @@ namespace catoptric::cli {
 ExitCode sensitivity_command(const CommonOptions& options) {
   SceneRun run(options);
   const design::Sensitivity sensitivity = design::run_sensitivity(run.scene, run.control);
+  if (!options.leads()) return ExitCode::done;
   const auto files = report::write_sensitivity(run.scene, sensitivity, run.out);
   run.line.finish();
   if (options.tells_people()) {

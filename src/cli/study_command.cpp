@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <functional>
 #include <future>
 
 #include "base/atomic_file.h"
 #include "base/byte_record.h"
 #include "base/recorded_ranks.h"
+#include "base/sent_folder.h"
 #include "cli/commands.h"
 #include "cli/json_lines.h"
 #include "cli/scene_run.h"
@@ -115,7 +117,8 @@ class StudyRunner {
     }
   }
 
-  /// Ranks send what their run's tasks gave; rank 0 repeats the run from that in no time, and writes it.
+  /// Ranks send what their run's tasks gave, from which rank 0 repeats the run in no time for its row, and
+  /// the run's files, whose plots take longer than many a run.
   void run_side_by_side() {
     const auto recorded = [&](std::size_t i) {
       if (control_.stopped()) return Bytes();
@@ -123,25 +126,34 @@ class StudyRunner {
       RecordingRanks recorder;
       design::RunControl alone = control_;
       alone.ranks = &recorder;
-      run_one(list_, list_.runs[i], scenes_[i], alone);
-      return ByteWriter().put(recorder.log()).take();
+      report::StudyRow row = run_one(list_, list_.runs[i], scenes_[i], alone);
+      const ScratchFolder made;
+      write_files(row, made.path());
+      return ByteWriter().put(recorder.log()).put(row.error).put(folder_bytes(made.path())).take();
     };
-    const auto repeated = [&](std::size_t i, const Bytes& log) {
-      if (log.empty()) return;
+    const auto repeated = [&](std::size_t i, const Bytes& sent) {
+      if (sent.empty()) return;
       prepare_output_folder(folder(i), report::room_for(scenes_[i]));
-      RepeatingRanks repeating(ByteReader(log).get<JoinLog>());
-      keep(i, run_one(list_, list_.runs[i], scenes_[i], {.ranks = &repeating}));
+      ByteReader reader(sent);
+      RepeatingRanks repeating(reader.get<JoinLog>());
+      report::StudyRow row = run_one(list_, list_.runs[i], scenes_[i], {.ranks = &repeating});
+      reader.get(row.error);
+      rows_.push_back(std::move(row));
+      write_beside([files = reader.get<std::string>(), to = folder(i)] { write_folder(files, to); });
     };
     options_.ranks->join(list_.runs.size(), recorded, repeated, [] { return Bytes(); });
   }
 
-  /// Files of the run before are written while the next is at work: plots and exchange need no light.
   void keep(std::size_t i, report::StudyRow row) {
     if (!options_.leads()) return;
     rows_.push_back(std::move(row));
+    write_beside([&row = rows_.back(), to = folder(i)] { write_files(row, to); });
+  }
+
+  /// Files of the run before are written while the next is at work: plots and exchange need no light.
+  void write_beside(std::function<void()> write) {
     if (writing_.valid()) writing_.get();
-    writing_ = std::async(std::launch::async,
-                          [&row = rows_.back(), folder = folder(i)] { write_files(row, folder); });
+    writing_ = std::async(std::launch::async, std::move(write));
   }
 
   const CommonOptions& options_;

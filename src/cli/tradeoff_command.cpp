@@ -8,6 +8,7 @@ namespace catoptric::cli {
 ExitCode tradeoff_command(const CommonOptions& options) {
   SceneRun run(options);
   const design::Tradeoff trade = design::run_tradeoff(run.scene, run.control);
+  if (!options.leads()) return ExitCode::done;
   const auto files = report::write_tradeoff(run.scene, trade, run.out);
   run.line.finish();
   if (options.tells_people()) {

@@ -148,16 +148,9 @@ class SharedRanks::Leader {
         continue;
       }
       patience.reset();
-      if (message->topic == Topic::farewell) {
-        const Farewell farewell = Farewell::of(message->bytes);
-        ranks_.end_all(farewell.exit_code > 0 ? farewell.exit_code : our_bug,
-                       words_of(message->from, farewell));
-      }
+      ranks_.end_if_farewell(*message);
       Request request = Request::of(message->bytes);
-      if (request.join != ranks_.joins_)
-        ranks_.end_all(our_bug, fmt::format("a mistake of this program, please report it: rank {} is at join "
-                                            "{}, rank 0 at {}",
-                                            message->from, request.join, ranks_.joins_));
+      ranks_.require_here(message->from, request.join);
       std::uint64_t task = no_task;
       {
         const std::scoped_lock lock(mutex_);
@@ -191,8 +184,62 @@ Bytes SharedRanks::join(std::size_t count, const Compute& compute, const Take& t
   ++joins_;
   if (!leads()) return follow(count, compute);
   Bytes result = result_or_error([&] { return lead(count, compute, take, joined); });
-  for (int to = 1; to < size(); ++to) messenger_->send(to, Topic::joined, result);
+  tell_all(result);
   return result_of(std::move(result));
+}
+
+std::vector<Bytes> SharedRanks::each(const ComputeOwn& compute) {
+  if (inside_ || size() == 1) return Ranks::each(compute);
+  if (released_) throw Interrupted();
+  ++joins_;
+  Bytes own = result_or_error([&] {
+    const Inside task_runs(inside_);
+    return compute(static_cast<std::size_t>(rank()), static_cast<std::size_t>(size()));
+  });
+  Bytes all;
+  if (leads()) {
+    all = result_or_error([&] { return ByteWriter().put(gather(std::move(own))).take(); });
+    tell_all(all);
+  } else {
+    messenger_->send(0, Topic::request,
+                     Request{joins_, static_cast<std::uint64_t>(rank()), std::move(own)}.bytes());
+    all = from_leader().bytes;
+  }
+  all = result_of(std::move(all));
+  return ByteReader(all).get<std::vector<Bytes>>();
+}
+
+/// Rank 0's result and what the others send.
+std::vector<Bytes> SharedRanks::gather(Bytes own) {
+  std::vector<Bytes> kept(static_cast<std::size_t>(size()));
+  kept[0] = std::move(own);
+  for (int missing = size() - 1; missing > 0; --missing) {
+    const Message message = wait();
+    end_if_farewell(message);
+    Request request = Request::of(message.bytes);
+    require_here(message.from, request.join);
+    kept[request.done] = std::move(request.result);
+  }
+  for (Bytes& each : kept) each = result_of(std::move(each));
+  return kept;
+}
+
+void SharedRanks::end_if_farewell(const Message& message) {
+  if (message.topic != Topic::farewell) return;
+  const Farewell farewell = Farewell::of(message.bytes);
+  end_all(farewell.exit_code > 0 ? farewell.exit_code : our_bug, words_of(message.from, farewell));
+}
+
+/// That a rank is at the same call as rank 0.
+void SharedRanks::require_here(int from, std::uint64_t join) {
+  if (join != joins_)
+    end_all(our_bug, fmt::format("a mistake of this program, please report it: rank {} is at join {}, rank 0 "
+                                 "at {}",
+                                 from, join, joins_));
+}
+
+void SharedRanks::tell_all(const Bytes& joined) {
+  for (int to = 1; to < size(); ++to) messenger_->send(to, Topic::joined, joined);
 }
 
 Bytes SharedRanks::lead(std::size_t count, const Compute& compute, const Take& take, const Joined& joined) {

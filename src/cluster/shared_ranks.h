@@ -23,6 +23,9 @@ class SharedRanks : public Ranks {
   ///        message, where a rank has ended early (with its exit code) or the ranks came to different calls
   Bytes join(std::size_t count, const Compute& compute, const Take& take, const Joined& joined) override;
 
+  /// @fails as join
+  std::vector<Bytes> each(const ComputeOwn& compute) override;
+
   /// To be called once at the end of every rank: waits until all have come here, so that none is killed while
   /// it still writes. Once rank 0 has failed, others may take 5 s to end the task they are at.
   /// @in    words: of the error that ended this rank, if one did
@@ -34,8 +37,12 @@ class SharedRanks : public Ranks {
   class Leader;
   Message wait();
   Message from_leader();
+  void end_if_farewell(const Message& message);
+  void require_here(int from, std::uint64_t join);
+  void tell_all(const Bytes& joined);
   Bytes follow(std::size_t count, const Compute& compute);
   Bytes lead(std::size_t count, const Compute& compute, const Take& take, const Joined& joined);
+  std::vector<Bytes> gather(Bytes own);
   int release_all(int exit_code);
   [[noreturn]] void end_all(int exit_code, const std::string& words);
 

@@ -71,15 +71,24 @@ class Feedback {
     total_rms_ = norm_per_sample(total);
   }
 
+  /// Why the light is looked at on a bare plane instead of the scene's near field; nothing where it is not.
+  static std::optional<std::string> left_out(const Scene& scene, const Profile& profile) {
+    return sim::rings_objection(Stage(scene, profile).scene);
+  }
+
   RealLight light_of(const Profile& profile) const {
     const Stage stage(scene_, profile);
+    const sim::NearField plane = sim::NearField::disc({0, 0, scene_.near_field.center_mm().z()},
+                                                      scene_.near_field.normal(), radii_.back() * 1.01);
+    const sim::Scene bare{*stage.source, *stage.mirror, stage.scene.mirror, plane, nullptr};
+    const sim::Scene& seen = sim::rings_objection(stage.scene) ? bare : stage.scene;
     sim::RingsOptions options;
     options.photons.photons = photons_of_all_sets;
     options.photons.sampler = sim::Sampler::sobol;
     options.photons.seed = scene_.seed;
     options.photons.stream = own_stream;
     options.replicates = sets;
-    const sim::RingsField field = sim::rings_field(stage.scene, radii_, options);
+    const sim::RingsField field = sim::rings_field(seen, radii_, options);
     const auto copied = [](const std::vector<double>& values) {
       return Eigen::VectorXd(
           Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(compared_radii)));
@@ -128,7 +137,8 @@ Compensated compensate(const Scene& scene, const TailoringTask& task, const Prof
                        const MirrorMaker& make) {
   const Feedback feedback(scene, task, image_mm);
   const RealLight at_first = feedback.light_of(first);
-  Compensated best{first, feedback.error_rel(at_first), 0, 0, feedback.limit_rel(), 1};
+  Compensated best{first, feedback.error_rel(at_first),    0, 0, feedback.limit_rel(),
+                   1,     Feedback::left_out(scene, first)};
   best.error_rel = best.first_error_rel;
   best.noise_rel = feedback.noise_rel(at_first);
   for (const int times : sharpenings) {

@@ -22,6 +22,8 @@ struct Compensated {
   double noise_rel;        ///< of these errors, by the spread of the photon sets
   double limit_rel;        ///< what images of the least size leave at best, wherever they are put
   int mirrors;             ///< made and lit on the way
+  std::optional<std::string> objection;  ///< why they were lit as if nothing stood between them and a bare
+                                         ///< plane; nothing where they were not
 };
 
 /// Where the source is no point, asks the point source's balance for a sharpened light, by a model in which
@@ -29,7 +31,7 @@ struct Compensated {
 /// no nearer to the target. Of several sharpenings the best is taken.
 ///
 /// Each mirror is lit by the real source, with photons folded about the axis and the same random numbers for
-/// all mirrors.
+/// all mirrors; where a real near field beside the axis would shade them unevenly, on a bare plane.
 /// @in    a source that is symmetric about the axis; image_mm: radius of the source's image on the near field
 /// @cost  26 mirrors of some 0.15 s
 /// @from  the feedback design of Fournier, Cassarly & Rolland 2009, "Designing freeform reflectors for

@@ -58,12 +58,14 @@ std::uint64_t FieldChanger::replicates(sim::Rung rung) const {
   return rung == sim::Rung::tubes ? 1 : scene_.model.replicates;
 }
 
+std::uint64_t FieldChanger::photons_of_a_scene(sim::Rung rung) const {
+  return rung == sim::Rung::tubes ? 0 : replicates(rung) * scene_.model.photons.photons;
+}
+
 Changes FieldChanger::fields(const Scene& scene, const Profile& profile, sim::Rung rung) {
   Changes result;
-  for (std::uint64_t r = 0; r < replicates(rung); ++r) {
+  for (std::uint64_t r = 0; r < replicates(rung); ++r)
     result.w_per_mm2.push_back(total_by_rung(scene, rung, profile, points_, sensitivity_stream + r));
-    if (rung != sim::Rung::tubes) photons_ += scene.model.photons.photons;
-  }
   return result;
 }
 
@@ -77,6 +79,7 @@ std::optional<Changes> FieldChanger::changes(const Deviation& deviation, double 
   const auto varied = deviation.at(amount);
   if (!varied) return std::nullopt;
   Changes result = fields(varied->scene, varied->profile, rung);
+  photons_ += photons_of_a_scene(rung);
   const Changes& nominal = own(rung);
   for (Index r = 0; r < result.w_per_mm2.size(); ++r)
     for (Index i = 0; i < points_.size(); ++i) result.w_per_mm2[r][i] -= nominal.w_per_mm2[r][i];

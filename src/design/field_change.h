@@ -34,6 +34,9 @@ class FieldChanger {
   const std::vector<double>& radii_mm() const { return radii_mm_; }
   std::vector<double> field_along_cut(sim::Rung rung);
   double field_rms_w_per_mm2() const { return rms_; }
+  /// That one scene's light takes, all replicates.
+  std::uint64_t photons_of_a_scene(sim::Rung rung) const;
+  /// Spent on deviated scenes so far.
   std::uint64_t photons() const { return photons_; }
 
  private:

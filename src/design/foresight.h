@@ -15,7 +15,9 @@ namespace catoptric::design {
 /// gets: run once more on those it has had so far, and told of every other point that it is no better, it
 /// comes to the points that it may ask for next. These are computed together, and the search itself is told
 /// of each when it comes there. Of a population these are the next members, of a pattern the moves that
-/// follow when none is better; what is computed in vain costs nothing but ranks that had nothing to do.
+/// follow when none is better; what is computed in vain costs nothing but ranks that had nothing to do. Run
+/// once more and told the contrary, the search shows which points it asks for whatever the answers (the rest
+/// of a generation): these are computed in one go, so that no rank waits while there are any.
 /// @from  speculative computation: Burton 1985, IEEE Trans. Comput. C-34(12):1190
 class Foresight {
  public:
@@ -40,7 +42,9 @@ class Foresight {
   void know(std::span<const double> x, double value) { known_[{x.begin(), x.end()}] = value; }
 
  private:
-  std::vector<std::vector<double>> next_points(std::span<const double> x) const;
+  using Points = std::vector<std::vector<double>>;
+  Points asked_next(std::size_t most, const std::function<double(std::size_t)>& answer) const;
+  Points next_points(std::span<const double> x) const;
 
   Ranks& ranks_;
   optim::Problem light_;

@@ -233,8 +233,12 @@ Judgement judge_to_accuracy(const Scene& scene, const Target& target, const Cand
   request.most_photons = scene.model.most_photons;
   request.fresh_photons_only = fresh_photons_only;
   request.watch = watch;
-  sim::AccurateField field = accurate_field_of(ranks_of(scene).from_first(
-      [&] { return as_bytes(sim::reach_accuracy(stage.scene, target.samples, request)); }));
+  const auto reach = [&] { return sim::reach_accuracy(stage.scene, target.samples, request); };
+  // A process by itself may be recording: its field is one entry then, from which the run is repeated.
+  sim::AccurateField field =
+      ranks_of(scene).size() > 1
+          ? reach()
+          : accurate_field_of(ranks_of(scene).from_first([&] { return as_bytes(reach()); }));
   Judgement judgement;
   judgement.rung = field.rung;
   judgement.accuracy = report_of(field, request.relative);

@@ -8,6 +8,7 @@
 #include "base/memory_limit.h"
 #include "design/evaluator.h"
 #include "design/run.h"
+#include "sim/bandwidth_ladder.h"
 #include "sim/photon_fields.h"
 
 namespace catoptric::design {
@@ -34,7 +35,7 @@ bool proof_keeps_photons(const Scene& scene) {
 
 }  // namespace
 
-MemoryNeed memory_need(const Scene& scene) {
+MemoryNeed memory_need(const Scene& scene, int ranks) {
   const sim::EstimateOptions& bandwidth = scene.model.estimate;
   // Each field has a map of its own; of a fixed radius all maps together hold one batch.
   const std::uint64_t maps = bandwidth.neighbours ? 1 + scene.fields.size() : 1;
@@ -42,11 +43,12 @@ MemoryNeed memory_need(const Scene& scene) {
   const std::uint64_t samples =
       numbers_of_a_sample * sizeof(double) * all_samples(scene) * scene.model.replicates;
   if (proof_keeps_photons(scene)) {
-    const std::uint64_t proof = sim::bytes_of_a_stored_photon * scene.model.most_photons;
+    const std::uint64_t kept = sim::most_kept_by_a_rank(scene.model.most_photons, ranks);
+    const std::uint64_t proof = sim::bytes_of_a_stored_photon * kept;
     const std::uint64_t bytes = program_bytes + samples + std::max(proof, photons);
     return {bytes,
-            fmt::format("at most {}: proving the accuracy may keep {} photons (model.most_photons)",
-                        size(bytes), scene.model.most_photons),
+            fmt::format("at most {}: proving the accuracy may keep {} photons (model.most_photons{})",
+                        size(bytes), kept, ranks > 1 ? ", a rank's part of them" : ""),
             "model.most_photons", "fewer photons, or a scene that rings or tubes can compute"};
   }
   const std::uint64_t bytes = program_bytes + samples + photons;
@@ -73,8 +75,8 @@ bool fits_memory(const Scene& scene) {
   return !available || memory_need(scene).bytes <= *available;
 }
 
-void require_memory(const Scene& scene) {
-  const MemoryNeed need = memory_need(scene);
+void require_memory(const Scene& scene, int ranks) {
+  const MemoryNeed need = memory_need(scene, ranks);
   const auto available = available_memory_bytes();
   if (!available || need.bytes <= *available) return;
   throw scene.settings.error(need.key, "the scene would not fit into memory",

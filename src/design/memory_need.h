@@ -14,9 +14,10 @@ struct MemoryNeed {
   const char *key, *hint;  ///< what of the scene asks for it, and what would take less
 };
 
-/// What `simulate`, `design` and `landscape` of a scene take at most, the program itself included.
+/// What `simulate`, `design` and `landscape` of a scene take at most, the program itself included: in each of
+/// so many ranks that share it.
 /// @error an upper bound where photons meet the near field's plane once each
-MemoryNeed memory_need(const Scene& scene);
+MemoryNeed memory_need(const Scene& scene, int ranks = 1);
 
 /// Photons that proofs of accuracy can keep in the memory that is free now.
 std::uint64_t photons_that_fit();
@@ -26,6 +27,6 @@ bool fits_memory(const Scene& scene);
 
 /// Refuses a scene that would not fit, before anything is computed.
 /// @fails InputError naming the key to change
-void require_memory(const Scene& scene);
+void require_memory(const Scene& scene, int ranks = 1);
 
 }  // namespace catoptric::design

@@ -103,7 +103,7 @@ DesignResult run_design(const Scene& given, const RunControl& control) {
                                "design moves at least one variable",
                                "[variables.w1] with step, lower and upper");
   need_target(scene, "design");
-  require_memory(scene);
+  require_memory(scene, ranks_of(scene).size());
   const Candidate start = start_candidate(scene);
   const SceneFamily family = family_of(scene);
   sim::Plan plan = make_plan(scene, family);
@@ -147,7 +147,7 @@ sim::Plan simulation_plan(const Scene& scene, const Candidate& candidate) {
 
 SimulationResult run_simulation(const Scene& given, const RunControl& control) {
   const Scene scene = shared(given, control);
-  require_memory(scene);
+  require_memory(scene, ranks_of(scene).size());
   const Stopwatch watch;
   const Candidate start = start_candidate(scene);
   sim::Plan plan = simulation_plan(scene, start);
@@ -173,7 +173,7 @@ Landscape run_landscape(const Scene& given, const RunControl& control) {
   if (!scene.landscape)
     throw scene.settings.error("landscape.variables", "is missing", "landscape needs one or two variables",
                                "landscape.variables = [\"w1\", \"r2\"] with lower, upper and steps");
-  require_memory(scene);
+  require_memory(scene, ranks_of(scene).size());
   const Stopwatch watch;
   const LandscapeSpec& spec = *scene.landscape;
   Landscape result{spec.variables, {}, {}, {}, 0};

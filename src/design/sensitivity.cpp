@@ -4,9 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <set>
 
+#include "base/byte_record.h"
 #include "design/evaluator.h"
 #include "design/field_change.h"
+#include "design/shared_work.h"
 
 namespace catoptric::design {
 namespace {
@@ -94,13 +97,15 @@ ParameterSensitivity measure(FieldChanger& changer, const Scene& scene, const Pr
                                                                               : -deviation.first_guess);
   const sim::Rung rung =
       small ? make_plan(small->scene, small->profile).rung : make_plan(scene, profile).rung;
-  ParameterSensitivity result{deviation, rung, changer.replicates(rung), 0, {}, 0, {}, {}, {}, {}};
+  const std::uint64_t before = changer.photons();
+  ParameterSensitivity result{.deviation = deviation, .rung = rung, .replicates = changer.replicates(rung)};
   const ToleranceSearch search(changer, deviation, rung, scene.sensitivity.allowed_rel, control);
   result.plus = search(1);
   result.minus = search(-1);
   const double share = rung == sim::Rung::tubes ? step_by_tubes : step_by_photons;
   result.step = share * result.tolerance().value_or(deviation.first_guess / share);
   const auto slope = derivative(changer, deviation, rung, result.step);
+  result.photons = changer.photons() - before;
   if (!slope) return result;
   result.change_per_unit = changer.measure(*slope);
   result.derivative_w_per_mm2 = changer.along_cut(*slope);
@@ -112,7 +117,52 @@ ParameterSensitivity measure(FieldChanger& changer, const Scene& scene, const Pr
     const double bend = changer.measure(*wide).value_rel, change = result.change_per_unit.value_rel;
     if (bend > 0) result.nonlinearity_rel = change > 0 ? bend / change : HUGE_VAL;
   }
+  result.photons = changer.photons() - before;
   return result;
+}
+
+Bytes as_bytes(const ParameterSensitivity& each) {
+  return ByteWriter()
+      .put(each.rung)
+      .put(each.replicates)
+      .put(each.step)
+      .put(each.change_per_unit)
+      .put(each.nonlinearity_rel)
+      .put(each.derivative_w_per_mm2)
+      .put(each.derivative_noise_w_per_mm2)
+      .put(each.minus)
+      .put(each.plus)
+      .put(each.photons)
+      .take();
+}
+
+ParameterSensitivity parameter_sensitivity_of(const Bytes& bytes, const Deviation& deviation) {
+  ParameterSensitivity each{.deviation = deviation, .rung = {}};
+  ByteReader(bytes)
+      .get(each.rung)
+      .get(each.replicates)
+      .get(each.step)
+      .get(each.change_per_unit)
+      .get(each.nonlinearity_rel)
+      .get(each.derivative_w_per_mm2)
+      .get(each.derivative_noise_w_per_mm2)
+      .get(each.minus)
+      .get(each.plus)
+      .get(each.photons);
+  return each;
+}
+
+/// All that flew: for each deviation, and once for the scene itself by every rung that was asked.
+std::uint64_t photons_of_all(const FieldChanger& changer, sim::Rung own,
+                             const std::vector<ParameterSensitivity>& parameters) {
+  std::set<sim::Rung> rungs{own};
+  std::uint64_t photons = 0;
+  for (const ParameterSensitivity& each : parameters) {
+    if (each.photons > 0) rungs.insert(each.rung);
+    photons += each.photons;
+  }
+  for (const sim::Rung rung : rungs) photons += changer.photons_of_a_scene(rung);
+  return photons;
 }
 
 }  // namespace
@@ -136,16 +186,25 @@ Sensitivity run_sensitivity(const Scene& written, const RunControl& control) {
   Sensitivity result{std::move(start.profile), {}, {}, 0, scene.sensitivity.allowed_rel, {}, 0, 0};
   FieldChanger changer(scene, result.profile);
   const std::vector<Deviation> list = deviations(scene, result.profile);
-  for (const Deviation& deviation : list) {
+  const auto tell = [&](const char* last) {
     control.tell({"sensitivity",
                   static_cast<double>(result.parameters.size()) / static_cast<double>(list.size()),
-                  std::numeric_limits<double>::quiet_NaN(), 0, deviation.name});
-    result.parameters.push_back(measure(changer, scene, result.profile, deviation, control));
-  }
+                  std::numeric_limits<double>::quiet_NaN(), 0, last});
+  };
+  tell("");
+  const auto of_deviation = [&](Index i) {
+    return as_bytes(measure(changer, scene, result.profile, list[i], control));
+  };
+  const auto take = [&](Index i, const Bytes& bytes) {
+    result.parameters.push_back(parameter_sensitivity_of(bytes, list[i]));
+    tell(list[i].name.c_str());
+  };
+  ranks_of(control).join(list.size(), of_deviation, take, [] { return Bytes(); });
   result.radii_mm = changer.radii_mm();
-  result.field_w_per_mm2 = changer.field_along_cut(make_plan(scene, result.profile).rung);
+  const sim::Rung own = make_plan(scene, result.profile).rung;
+  result.field_w_per_mm2 = changer.field_along_cut(own);
   result.field_rms_w_per_mm2 = changer.field_rms_w_per_mm2();
-  result.photons = changer.photons();
+  result.photons = photons_of_all(changer, own, result.parameters);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

@@ -27,13 +27,16 @@ struct ParameterSensitivity {
   Deviation deviation;
   sim::Rung rung;  ///< that the deviated scene needs
   std::uint64_t replicates = 1;
-  double step = 0;              ///< of the central differences, in the deviation's unit
-  FieldChange change_per_unit;  ///< for small deviations
+  double step = 0;                   ///< of the central differences, in the deviation's unit
+  FieldChange change_per_unit = {};  ///< for small deviations
   double nonlinearity_rel = 0;  ///< difference of the derivatives with the step and with twice the step, over
                                 ///< the first; with photons noise is in it
-  std::vector<double> derivative_w_per_mm2;  ///< dE/dp at Sensitivity::radii_mm, per unit of the deviation
-  std::vector<double> derivative_noise_w_per_mm2;
-  std::optional<Tolerated> minus, plus;  ///< nothing where no deviation that makes sense costs so much
+  std::vector<double> derivative_w_per_mm2 =
+      {};  ///< dE/dp at Sensitivity::radii_mm, per unit of the deviation
+  std::vector<double> derivative_noise_w_per_mm2 = {};
+  std::optional<Tolerated> minus = {},
+                           plus = {};  ///< nothing where no deviation that makes sense costs so much
+  std::uint64_t photons = 0;           ///< spent on deviated scenes
 
   /// The lesser of the two: what a maker may be told. Nothing when both sides are free.
   std::optional<double> tolerance() const;
@@ -59,6 +62,7 @@ struct Sensitivity {
 /// central differences. Each is computed by the cheapest rung valid for the deviated scene; with photons the
 /// same random numbers are used with and without the deviation, in `model.replicates` independent
 /// repetitions, and noise is taken off what eq. 7 counts as change.
+/// @out   `parameters` by rank 0 alone, the same bits for any number of ranks, which share the deviations
 /// @fails InputError as a simulation of the scene; Interrupted
 /// @error a tolerance costs what is allowed to 0.5 %, with photons to their noise, which is stated
 Sensitivity run_sensitivity(const Scene& scene, const RunControl& control);

@@ -9,11 +9,6 @@
 namespace catoptric::design {
 namespace {
 
-Ranks& alone() {
-  static Ranks ranks;
-  return ranks;
-}
-
 std::uint64_t batches(const Scene& scene) {
   const sim::EstimateOptions bandwidth = scene.model.estimate;
   return sim::photon_batches(scene.model.photons.photons, std::span(&bandwidth, 1), 1 + scene.fields.size());
@@ -28,9 +23,9 @@ double busy_share(std::uint64_t tasks, std::uint64_t ranks) {
 }  // namespace
 
 Ranks& ranks_of(const Scene& scene) {
-  return scene.model.photons.ranks ? *scene.model.photons.ranks : alone();
+  return scene.model.photons.ranks ? *scene.model.photons.ranks : lone_process();
 }
-Ranks& ranks_of(const RunControl& control) { return control.ranks ? *control.ranks : alone(); }
+Ranks& ranks_of(const RunControl& control) { return control.ranks ? *control.ranks : lone_process(); }
 
 Scene shared(Scene scene, const RunControl& control) {
   scene.model.photons.ranks = control.ranks;
@@ -210,13 +205,16 @@ bool shares_evaluations(const Scene& scene, sim::Rung rung, const Ranks& ranks) 
 std::string sharing_sentence(const Scene& scene, const std::optional<sim::Rung>& searched,
                              const Ranks& ranks) {
   if (ranks.size() == 1) return "";
-  std::string sentence =
-      scene.accuracy_rel ? fmt::format("{} ranks: rank 0 alone finds what the accuracy takes", ranks.size())
-      : shares_replicates(scene, sim::Rung::photons, ranks)
-          ? fmt::format("{} ranks: the {} replicates of a verdict are shared", ranks.size(),
-                        scene.model.replicates)
-          : fmt::format("{} ranks: the {} batches of photons of each replicate are shared", ranks.size(),
-                        batches(scene));
+  std::string sentence = scene.accuracy_rel
+                             ? fmt::format(
+                                   "{} ranks: each keeps a part of the photons that the accuracy takes, if "
+                                   "it takes any, and looks at it",
+                                   ranks.size())
+                         : shares_replicates(scene, sim::Rung::photons, ranks)
+                             ? fmt::format("{} ranks: the {} replicates of a verdict are shared",
+                                           ranks.size(), scene.model.replicates)
+                             : fmt::format("{} ranks: the {} batches of photons of each replicate are shared",
+                                           ranks.size(), batches(scene));
   if (searched && shares_evaluations(scene, *searched, ranks))
     sentence +=
         fmt::format("; a search computes up to {} points that it may ask for side by side", ranks.size());

@@ -250,6 +250,12 @@ class Moved final : public SurfaceShape {
   std::optional<Meeting> meet(const Ray& ray, bool starts_here, double reach_mm) const override {
     return shape_->meet({ray.origin_mm - origin_mm_, ray.direction}, starts_here, reach_mm);
   }
+  std::vector<std::vector<Vector3>> outlines() const override {
+    auto lines = shape_->outlines();
+    for (auto& line : lines)
+      for (Vector3& point : line) point += origin_mm_;
+    return lines;
+  }
 
  private:
   sim::ShapePointer shape_;

@@ -254,6 +254,12 @@ void serve_extended_source(const Scene& scene, TailoringTask& task, Made& made) 
       scene.to_scene_unit(images.least_mm), scene.to_scene_unit(images.most_mm), symbol(scene.unit),
       100 * found.first_error_rel, found.mirrors, 100 * found.error_rel, 100 * found.noise_rel,
       100 * found.limit_rel));
+  if (found.objection)
+    task.notes.push_back(
+        fmt::format("these mirrors were lit as if nothing stood between them and a bare plane, since {}; "
+                    "what stands there "
+                    "is in the verdict",
+                    *found.objection));
   made.tailored.profile = std::move(found.profile);
 }
 

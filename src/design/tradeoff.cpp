@@ -1,5 +1,4 @@
 #include "design/tradeoff.h"
-#include "design/memory_need.h"
 
 #include <fmt/format.h>
 
@@ -9,10 +8,12 @@
 #include <fstream>
 #include <thread>
 
+#include "base/byte_record.h"
 #include "design/evaluator.h"
 #include "design/judge.h"
 #include "design/memory_need.h"
 #include "design/sampling.h"
+#include "design/shared_work.h"
 #include "design/stage.h"
 #include "design/thread_limit.h"
 #include "sim/closed_forms.h"
@@ -30,13 +31,20 @@ double elapsed_s(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+/// As rank 0's memory has room.
+std::uint64_t fitting_for_all(Ranks& ranks) {
+  const Bytes bytes = ranks.from_first([] { return ByteWriter().put(photons_that_fit()).take(); });
+  return ByteReader(bytes).get<std::uint64_t>();
+}
+
 struct Truth {
   std::string name;
   double error_rel = 0;
   std::vector<double> total;  ///< W/mm^2
 };
 
-Truth find_truth(const Scene& scene, const Profile& profile, std::span<const sim::FieldSample> samples) {
+Truth find_truth(const Scene& scene, const Profile& profile, std::span<const sim::FieldSample> samples,
+                 const RunControl& control) {
   const Stage stage(scene, profile);
   if (auto form = sim::closed_form(stage.scene, samples))
     return {"closed form: " + form->name, 1e-12,
@@ -46,7 +54,8 @@ Truth find_truth(const Scene& scene, const Profile& profile, std::span<const sim
   request.photons = scene.model.photons;
   request.photons.sampler = sim::Sampler::sobol;
   request.photons.stream = truth_stream;
-  request.most_photons = std::min(50 * scene.tradeoff.most_photons, photons_that_fit());
+  request.photons.ranks = control.ranks;
+  request.most_photons = std::min(50 * scene.tradeoff.most_photons, fitting_for_all(ranks_of(control)));
   const sim::AccurateField field = sim::reach_accuracy(stage.scene, samples, request);
   return {field.rung == sim::Rung::tubes
               ? fmt::format("ray tubes, {} rays", field.rays)
@@ -200,7 +209,7 @@ Tradeoff run_tradeoff(const Scene& written, const RunControl& control) {
   scene.mirror = start.mirror;
   const std::vector<sim::FieldSample> samples = field_samples(scene);
   control.tell({"reference", 0.0, std::numeric_limits<double>::quiet_NaN(), 0});
-  const Truth truth = find_truth(scene, profile, samples);
+  const Truth truth = find_truth(scene, profile, samples, control);
   Tradeoff trade;
   trade.reference = truth.name;
   trade.reference_error_rel = truth.error_rel;
@@ -208,6 +217,7 @@ Tradeoff run_tradeoff(const Scene& written, const RunControl& control) {
   if (!(trade.rms_w_per_m2 > 0))
     throw InputError({"the near field is dark", scene.settings.file(),
                       "errors are relative to its irradiance", "aim the mirror at the near field"});
+  if (!ranks_of(control).leads()) return trade;  // times are measured where nobody else works
   const std::vector<TradeSetting> settings = trade_settings(scene, profile);
   for (std::size_t i = 0; i < settings.size() && !control.stopped(); ++i) {
     if (!fits_memory(with_setting(scene, settings[i]))) {

@@ -51,6 +51,7 @@ struct Tradeoff {
 /// Measures time against error on this scene over rung, engine, sampler, photons, neighbours, kernel, threads
 /// and the accuracy key. The truth is the closed form where there is one, else ray tubes with their bound,
 /// else the highest rung run until its own error is far below what is measured.
+/// @out   by rank 0; the control's ranks share the truth, whose times are not measured
 /// @fails InputError as a simulation of the scene
 Tradeoff run_tradeoff(const Scene& scene, const RunControl& control);
 

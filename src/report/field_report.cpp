@@ -20,12 +20,12 @@ Figure in_w_per_m2(const Figure& figure) {
   return result;
 }
 
-Json figure_json(const Figure& figure, std::string_view unit) {
+Json figure_json(const Figure& figure, std::string_view unit, double greatest = HUGE_VAL) {
   return {{"value", figure.value},
           {"unit", std::string(unit)},
           {"noise", figure.noise},
           {"bias", figure.bias},
-          {"interval95", interval_json(figure)}};
+          {"interval95", interval_json(figure, greatest)}};
 }
 
 /// What a surface gets, but for its zones.
@@ -33,8 +33,8 @@ Json surface_json(const design::FieldFigures& field, std::string_view irradiance
   Json json = {{"average", figure_json(in_w_per_m2(field.average_w_per_mm2), irradiance)},
                {"least", figure_json(in_w_per_m2(field.least_w_per_mm2), irradiance)},
                {"greatest", figure_json(in_w_per_m2(field.greatest_w_per_mm2), irradiance)},
-               {"uniformity", figure_json(field.uniformity, "1")},
-               {"diversity", figure_json(field.diversity, "1")}};
+               {"uniformity", figure_json(field.uniformity, "1", 1)},
+               {"diversity", figure_json(field.diversity, "1", 1)}};
   json["flux"] = field.flux_w ? figure_json(*field.flux_w, flux) : Json(nullptr);
   return json;
 }
@@ -63,10 +63,11 @@ std::string zone_text(const design::Scene& scene, const design::ZoneFigures& zon
 
 }  // namespace
 
-Json interval_json(const Figure& figure) {
+Json interval_json(const Figure& figure, double greatest) {
   if (!figure.half_interval) return nullptr;
   const double middle = figure.value - figure.bias;
-  return {std::max(0.0, middle - *figure.half_interval), middle + *figure.half_interval};
+  return {std::clamp(middle - *figure.half_interval, 0.0, greatest),
+          std::clamp(middle + *figure.half_interval, 0.0, greatest)};
 }
 
 Json field_json(const design::Scene& scene, const design::Judgement& judgement) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -8,8 +9,9 @@
 
 namespace catoptric::report {
 
-/// Where the truth lies with a probability of 95 %: two numbers, not below 0; null where that is not known.
-nlohmann::ordered_json interval_json(const design::Figure& figure);
+/// Where the truth lies with a probability of 95 %: two numbers, not below 0 nor above what the figure can
+/// be; null where that is not known.
+nlohmann::ordered_json interval_json(const design::Figure& figure, double greatest = HUGE_VAL);
 
 /// What the near field gets, each figure with unit, noise, bias and interval: average, least, greatest, U0,
 /// Ud, flux, zones; and how its samples lie.

@@ -43,6 +43,9 @@ std::string json_unit(design::Metric metric, LightQuantity quantity) {
   return unit.empty() ? "1" : unit;
 }
 
+/// That a metric can be: shares and evenness end at 1.
+double greatest(design::Metric metric) { return design::more_is_better(metric) ? 1 : HUGE_VAL; }
+
 /// Every metric that has a value, whatever is searched.
 Json metrics_json(const design::Judgement& judgement, LightQuantity quantity) {
   Json json = Json::object();
@@ -51,7 +54,7 @@ Json metrics_json(const design::Judgement& judgement, LightQuantity quantity) {
                                        {"unit", json_unit(metric, quantity)},
                                        {"noise", figure.noise},
                                        {"bias", figure.bias},
-                                       {"interval95", interval_json(figure)}};
+                                       {"interval95", interval_json(figure, greatest(metric))}};
   return json;
 }
 
@@ -76,7 +79,7 @@ Json objective_json(const design::Scene& scene, const design::Judgement& judgeme
                {"unit", json_unit(scene.search.metric, scene.source.quantity)},
                {"noise", judgement.objective.noise},
                {"bias", judgement.objective.bias},
-               {"interval95", interval_json(judgement.objective)},
+               {"interval95", interval_json(judgement.objective, greatest(scene.search.metric))},
                {"kernel_radius", scene.to_scene_unit(judgement.kernel_radius_mm)},
                {"kernel_radius_unit", std::string(symbol(scene.unit))}};
   if (scene.model.estimate.neighbours) json["neighbours"] = *scene.model.estimate.neighbours;

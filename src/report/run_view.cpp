@@ -13,7 +13,7 @@ namespace catoptric::report {
 namespace {
 
 constexpr double most_sizes_away = 4;  ///< a mirror beside a field farther away would be a speck
-constexpr std::size_t most_corners = 40, most_facets = 600;
+constexpr std::size_t most_corners = 40;
 constexpr int points_of_a_span = 24, points_of_a_round = 72;
 
 using Box = Eigen::AlignedBox3d;
@@ -53,16 +53,6 @@ std::vector<Vector2> rim_of_cylinder(double side) {
   return places;
 }
 
-/// The borders of facets, of many an even selection.
-std::vector<Polyline> facet_outlines(const sim::FacetField& field) {
-  std::vector<Polyline> outlines;
-  const std::size_t step = 1 + field.facets() / most_facets;
-  for (std::size_t facet = 0; facet < field.facets(); facet += step)
-    outlines.push_back({field.corner_mm(facet, 0), field.corner_mm(facet, 1), field.corner_mm(facet, 2),
-                        field.corner_mm(facet, 0)});
-  return outlines;
-}
-
 ViewedField viewed(const sim::NearField& field) {
   using enum sim::NearField::Shape;
   switch (field.shape()) {
@@ -71,7 +61,7 @@ ViewedField viewed(const sim::NearField& field) {
     case rectangle:
       return {{outline(field, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})}, field.center_mm(), true};
     case facets:
-      return {facet_outlines(*field.facets()), field.center_mm(), false};
+      return {field.facets()->outlines(), field.center_mm(), false};
     case cylinder:
       break;
   }
@@ -112,10 +102,39 @@ Polyline way_of(const sim::LightPath& path, const Vector3& center_mm, double rad
   return within(way, center_mm, 1.1 * radius_mm);
 }
 
-bool is_near(const sim::NearField& field, const Profile& profile) {
+/// How far from the mirror's middle a place is, in what is drawn beside it at most.
+double farness(const Vector3& point_mm, const Profile& profile) {
   const Vector3 middle_mm(0, 0, 0.5 * (profile.z_min_mm() + profile.z_max_mm()));
+  return (point_mm - middle_mm).norm() / ((1 + most_sizes_away) * profile.diagonal_mm());
+}
+
+bool is_near(const sim::NearField& field, const Profile& profile) {
   const double size_mm = std::max(field.half_width_mm(), field.half_height_mm());
-  return (field.center_mm() - middle_mm).norm() + size_mm < (1 + most_sizes_away) * profile.diagonal_mm();
+  return farness(field.center_mm(), profile) + size_mm / ((1 + most_sizes_away) * profile.diagonal_mm()) < 1;
+}
+
+/// Adds the lines of the objects that are near as a whole.
+/// @out  how many are not
+std::size_t add_objects(View3d& view, Box& box, const sim::Surroundings& surroundings,
+                        const Profile& profile) {
+  std::size_t far = 0;
+  for (const sim::Object& object : surroundings.objects()) {
+    std::vector<Polyline> lines;
+    for (const auto& face : object.faces)
+      for (Polyline& line : face->outlines()) lines.push_back(std::move(line));
+    const bool near = std::ranges::all_of(lines, [&](const Polyline& line) {
+      return std::ranges::all_of(line, [&](const Vector3& point) { return farness(point, profile) < 1; });
+    });
+    if (!near) {
+      ++far;
+      continue;
+    }
+    for (Polyline& line : lines) {
+      for (const Vector3& point : line) box.extend(point);
+      view.objects.push_back(std::move(line));
+    }
+  }
+  return far;
 }
 
 void add(Box& box, const ViewedField& field) {
@@ -131,6 +150,7 @@ void scale(Polyline& points, double factor) {
 void to_scene_unit(View3d& view, double factor) {
   for (Vector2& point : view.generatrix) point *= factor;
   for (Polyline& ray : view.rays) scale(ray, factor);
+  for (Polyline& line : view.objects) scale(line, factor);
   for (ViewedField& field : view.fields) {
     for (Polyline& outline : field.outlines) scale(outline, factor);
     field.center *= factor;
@@ -143,7 +163,7 @@ void to_scene_unit(View3d& view, double factor) {
   view.radius *= factor;
 }
 
-std::string caption(const design::Scene& scene, const View3d& view, double far_mm) {
+std::string caption(const design::Scene& scene, const View3d& view, double far_mm, std::size_t far_objects) {
   std::string text =
       "The mirror in space: drag to turn, scroll after that to come nearer, double-click to stand back. ";
   text += view.rays.empty()
@@ -157,8 +177,11 @@ std::string caption(const design::Scene& scene, const View3d& view, double far_m
     text +=
         fmt::format(" The near field, {:.4g} {} from the source, is too far to be drawn beside the mirror.",
                     scene.to_scene_unit(far_mm), symbol(scene.unit));
-  if (scene.surroundings && !scene.surroundings->objects().empty())
-    text += " Objects about the mirror are not drawn, but the rays meet them.";
+  if (!view.objects.empty()) text += " Green: objects about the mirror.";
+  if (far_objects > 0)
+    text +=
+        fmt::format(" {} {} too far or too large to be drawn beside it, but the rays meet {}.", far_objects,
+                    far_objects == 1 ? "object is" : "objects are", far_objects == 1 ? "it" : "them");
   return text;
 }
 
@@ -183,6 +206,8 @@ View3d view_of(const design::Scene& scene, const Profile& profile, const design:
       view.fields.push_back(viewed(*field));
       add(box, view.fields.back());
     }
+  const std::size_t far_objects =
+      scene.surroundings ? add_objects(view, box, *scene.surroundings, profile) : 0;
   const bool far = !is_near(scene.near_field, profile);
   view.center = box.center();
   view.radius = (view.fields.empty() ? 0.75 : 0.5) * box.diagonal().norm();  // room for rays that go far
@@ -192,7 +217,8 @@ View3d view_of(const design::Scene& scene, const Profile& profile, const design:
   }
   // The eye stands where the mirror is open: on the side its rim lies of its apex.
   view.from_above = profile.at(profile.last_parameter()).z_mm > profile.at(profile.first_parameter()).z_mm;
-  view.caption = caption(scene, view, far ? (scene.near_field.center_mm() - source.position_mm).norm() : 0);
+  view.caption =
+      caption(scene, view, far ? (scene.near_field.center_mm() - source.position_mm).norm() : 0, far_objects);
   to_scene_unit(view, scene.to_scene_unit(1));
   return view;
 }

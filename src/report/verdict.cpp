@@ -18,7 +18,7 @@ std::string with_unit(const std::string& number, const std::string& unit) {
 }
 
 std::string objective_text(const design::Scene& scene, const design::Figure& figure) {
-  return with_unit(measured_text(figure.value, figure.noise), design::objective_unit(scene));
+  return figure_text(figure, design::objective_unit(scene));
 }
 
 /// Two digits, written out where that is short.

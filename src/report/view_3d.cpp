@@ -65,9 +65,12 @@ std::string view_json(const View3d& view) {
   for (const ViewedSource& source : view.sources) sources.push_back(source_json(source));
   for (const ViewedField& field : view.fields) fields.push_back(field_json(field));
   for (const Polyline& ray : view.rays) rays.push_back(places(ray));
+  Json objects = Json::array();
+  for (const Polyline& line : view.objects) objects.push_back(places(line));
   const Json json = {{"mirror", places(view.generatrix)},
                      {"sources", sources},
                      {"fields", fields},
+                     {"objects", objects},
                      {"rays", rays},
                      {"center", place(view.center)},
                      {"radius", rounded(view.radius)},

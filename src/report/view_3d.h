@@ -28,10 +28,11 @@ struct View3d {
   std::vector<Vector2> generatrix;  ///< r, z along the curve; revolved about z
   std::vector<ViewedSource> sources;
   std::vector<ViewedField> fields;
-  std::vector<Polyline> rays;  ///< each from the source on
-  Vector3 center;              ///< of what is looked at
-  double radius = 1;           ///< about it, greater than 0
-  bool from_above = true;      ///< where the eye stands
+  std::vector<Polyline> objects;  ///< lines on what stands about the mirror
+  std::vector<Polyline> rays;     ///< each from the source on
+  Vector3 center;                 ///< of what is looked at
+  double radius = 1;              ///< about it, greater than 0
+  bool from_above = true;         ///< where the eye stands
   std::string caption;
 };
 

@@ -60,6 +60,8 @@ inline constexpr const char* view_script = R"js((function () {
                                                     opacity: 0.25, depthWrite: false})));
   }
 
+  for (const outline of data.objects) lines(along(outline), line(0x009e73));
+
   for (const path of data.rays) {
     lines(path.slice(0, 2), dashed(0xb87f00));
     lines(along(path.slice(1)), line(0xe69f00));

@@ -86,6 +86,19 @@ def same(name, work, arguments, code, ranks=(1, 2, 3)):
             check(shared.stdout.count("written to") == 1, f"{name} on {count} ranks: not one rank speaks:\n{shared.stdout}")
 
 
+def traded(work):
+    """Times differ, and with them what is left out; the truth may not."""
+    truths = []
+    for ranks in (0, 2):
+        out = work / "traded" / str(ranks)
+        scene = ["tradeoff", SCENES.parent / "examples/cover_glass.toml", "--out", out, "--threads", 1, "--set", "near_field.samples=60"]
+        ended = run(ranks, scene + "--set tradeoff.seconds=0.05 --set tradeoff.most_photons=3000 --set tradeoff.seeds=2".split())
+        check(ended.returncode == 0, f"tradeoff on {ranks} ranks ended with {ended.returncode}: {ended.stderr}")
+        check(ended.stdout.count("written to") == 1, f"tradeoff on {ranks} ranks: not one rank speaks:\n{ended.stdout}")
+        truths.append(re.findall("truth: .*?\\)", ended.stdout))
+    check(len(truths[0]) == 1 and truths[0] == truths[1], f"the truth of a tradeoff is another on 2 ranks: {truths}")
+
+
 def study_file(folder):
     runs = "".join(f'[[runs]]\nname = "{name}"\nset = {{{change}}}\n' for name, change in [
         ("a", '"seed" = 2'), ("b", '"variables.w1.start" = 1.5'), ("d", '"model.rung" = "photons"'),
@@ -194,6 +207,15 @@ def main():
         same("pattern", work, ["design", start_a] + SEARCH, 0)
         same("population", work, ["design", start_a] + SEARCH +
              "--set search.method=cma-es --set search.most_evaluations=25".split(), 5, (3,))
+        same("accuracy by photons", work, ["simulate", paraboloid, "--threads", 1] +
+             "--set model.rung=photons --set accuracy=0.01".split(), 0)
+        same("accuracy by rings", work, ["simulate", paraboloid, "--threads", 1] +
+             "--set model.rung=rings --set accuracy=0.001".split(), 0)
+        same("accuracy of a design", work, ["design", start_a, "--threads", 1, "--set", "accuracy=0.02"], 0, (2,))
+        same("sensitivity", work, ["sensitivity", start_a] + SMALL + ["--set", "model.rung=photons"], 0)
+        same("landscape", work, ["landscape", start_a] + SMALL +
+             "--set model.rung=photons --set landscape.steps=[4,3]".split(), 0)
+        traded(work)
         same("study", work, ["study", study_file(work)] + SMALL, 4)
         same("study of fewer runs than ranks", work, ["study", study_file(work)] + SMALL, 4, (5,))
         resumed(work)

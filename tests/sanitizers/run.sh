@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../../build"
 
-cmake . -DCATOPTRIC_SANITIZED_ROOMS="base;cad;sim;optim;photometry;rayfiles;images;design;report;cli" >/dev/null
+cmake . -DCATOPTRIC_SANITIZED_ROOMS="base;cluster;cad;sim;optim;photometry;rayfiles;images;design;report;cli" >/dev/null
 cmake --build .
 cd tests
 

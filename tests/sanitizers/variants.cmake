@@ -19,9 +19,9 @@ target_link_options(catoptric_flags_asan INTERFACE -fsanitize=address,undefined)
 add_library(catoptric_flags_tsan INTERFACE)
 target_compile_options(catoptric_flags_tsan INTERFACE -fsanitize=thread -g1 ${CATOPTRIC_WATCHED})
 target_link_options(catoptric_flags_tsan INTERFACE -fsanitize=thread)
-set(CATOPTRIC_ROOMS_WITH_THREADS base optim sim)
+set(CATOPTRIC_ROOMS_WITH_THREADS base cluster optim sim)
 # Compiling report and cli once more takes the landing run two minutes: tests/sanitizers/run.sh adds them.
-set(CATOPTRIC_SANITIZED_ROOMS base cad sim optim photometry rayfiles images design CACHE STRING
+set(CATOPTRIC_SANITIZED_ROOMS base cluster cad sim optim photometry rayfiles images design CACHE STRING
     "Rooms that are built and tested under sanitizers as well")
 
 # catoptric_<room>_<variant>: the objects; catoptric_<room>_<variant>_needs: what they are linked with.
@@ -97,7 +97,7 @@ function(catoptric_add_sanitized_tests room)
   target_link_libraries(test_${room}_asan PRIVATE Catch2::Catch2WithMain ${libraries})
   catch_discover_tests(test_${room}_asan TEST_SPEC "~[long]~[unsanitized]~[.]" TEST_PREFIX "asan: ${room}: " EXTRA_ARGS --warn NoTests
                        PROPERTIES TIMEOUT 600)
-  if(room MATCHES "^(sim|optim)$")  # in one process, which so counts its statistical checks as well
+  if(room MATCHES "^(sim|optim|cluster)$")  # in one process, which so counts its statistical checks as well
     catoptric_add_sanitized_program(test_${room}_tsan tsan ${room} $<TARGET_OBJECTS:test_${room}_objects>)
     target_link_libraries(test_${room}_tsan PRIVATE Catch2::Catch2WithMain ${ARGN})
     # Of sim what lets threads work side by side: the rest would only be slow.

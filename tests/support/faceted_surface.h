@@ -37,6 +37,8 @@ class FacetedSurface final : public SurfaceShape {
     return nearest;
   }
 
+  std::vector<std::vector<Vector3>> outlines() const override { return facets_->outlines(); }
+
  private:
   std::shared_ptr<const Facets> facets_;
 };

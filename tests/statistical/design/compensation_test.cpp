@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
 
@@ -28,4 +29,17 @@ TEST_CASE("a mirror made for an extended source lights evenly where a point's mi
   };
   CHECK(truth_rel(compensated) < 0.01);
   CHECK(truth_rel(for_a_point) > 0.1);
+}
+
+TEST_CASE(
+    "a mirror for an extended source is made for a table beside the axis, on a bare plane and said so") {
+  Settings settings = Settings::read(CATOPTRIC_DATA "/examples/uniform_disc.toml", scene_keys());
+  for (const Override& change :
+       {Override{"source.kind", "\"disc\"", "test"}, Override{"source.radius", "5", "test"},
+        Override{"near_field.center", "[100, 0, -1000]", "test"}})
+    settings.set(change);
+  const Scene scene = make_scene(settings);
+  CHECK(std::ranges::count_if(scene.profile_notes, [](const std::string& note) {
+          return note.find("as if nothing stood") != std::string::npos;
+        }) == 1);
 }

@@ -145,6 +145,52 @@ TEST_CASE("inside a task all tasks are the rank's own") {
   }
 }
 
+TEST_CASE("what each rank keeps is asked of it and told to all in the order of the ranks") {
+  for (const int size : {1, 2, 3, 5}) {
+    const auto results = on_ranks(size, [&](SharedRanks& ranks) {
+      std::string kept;
+      const auto first = joined(ranks.each([&](std::size_t rank, std::size_t count) {
+        kept = std::to_string(rank) + "/" + std::to_string(count);
+        std::this_thread::sleep_for(std::chrono::milliseconds(rank == 1 ? 20 : 0));
+        return kept;
+      }));
+      return first + joined(ranks.each([&](std::size_t, std::size_t) { return kept; })) +
+             joined(ranks.share(3, square));
+    });
+    std::string all;
+    for (int rank = 0; rank < size; ++rank) all += std::to_string(rank) + "/" + std::to_string(size) + " ";
+    for (const std::string& each : results) CHECK(each == all + all + "0 1 4 ");
+  }
+}
+
+TEST_CASE("inside a task a rank is the only one") {
+  const auto results = on_ranks(2, [&](SharedRanks& ranks) {
+    return joined(ranks.share(4, [&](std::size_t) {
+      return joined(ranks.each([](std::size_t rank, std::size_t count) {
+        return std::to_string(rank) + "/" + std::to_string(count);
+      }));
+    }));
+  });
+  for (const std::string& each : results) CHECK(each == "0/1  0/1  0/1  0/1  ");
+}
+
+TEST_CASE("an error of any rank about what it keeps is an error of all") {
+  for (const int bad : {0, 2}) {
+    const auto results = on_ranks(3, [&](SharedRanks& ranks) -> Bytes {
+      try {
+        ranks.each([&](std::size_t rank, std::size_t) -> Bytes {
+          if (static_cast<int>(rank) == bad) throw CadError({"rank " + std::to_string(rank), "", "", ""});
+          return {};
+        });
+      } catch (const CadError& error) {
+        return error.what() + joined(ranks.share(2, square));
+      }
+      return "no error";
+    });
+    for (const std::string& each : results) CHECK(each == "rank " + std::to_string(bad) + "0 1 ");
+  }
+}
+
 TEST_CASE("ranks that wait for a rank 0 that has failed are let go") {
   const auto results = on_ranks(3, [&](SharedRanks& ranks) -> Bytes {
     if (ranks.leads()) throw IoError({"no folder", "", "", ""});

@@ -78,25 +78,28 @@ optim::Outcome pattern(const optim::Problem& problem, const optim::SearchLimits&
 
 }  // namespace
 
+// Populations are computed by generations (12 here) with nothing in vain; what depends on each answer, by
+// guesses.
 TEST_CASE("a search with foresight is the same search and comes together less often than it evaluates") {
   using enum optim::PagmoMethod;
   struct Case {
     const char* name;
     Search search;
-    double least_gain;  ///< evaluations over meetings with four ranks
+    double least_gain;     ///< evaluations over meetings with four ranks
+    double most_vain = 1;  ///< share of what was computed that the search never asked for, with four ranks
   };
-  const Case cases[] = {{"hooke-jeeves", pattern, 1.2},
+  const Case cases[] = {{"hooke-jeeves", pattern, 1.2, 0.6},
                         {"nelder-mead",
                          [](const auto& problem, const auto& limits) {
                            return optim::nelder_mead(problem, {.limits = limits});
                          },
-                         1.0},
-                        {"cma-es", pagmo(cma_es), 3.0},
-                        {"differential-evolution", pagmo(differential_evolution), 3.0},
-                        {"particle-swarm", pagmo(particle_swarm), 2.0},
-                        {"genetic", pagmo(genetic), 2.0},
-                        {"compass", pagmo(compass), 1.2},
-                        {"simulated-annealing", pagmo(simulated_annealing), 1.0}};
+                         1.0, 0.75},
+                        {"cma-es", pagmo(cma_es), 10, 0.0},
+                        {"differential-evolution", pagmo(differential_evolution), 10, 0.0},
+                        {"particle-swarm", pagmo(particle_swarm), 2.0, 0.3},
+                        {"genetic", pagmo(genetic), 10, 0.0},
+                        {"compass", pagmo(compass), 1.2, 0.5},
+                        {"simulated-annealing", pagmo(simulated_annealing), 1.0, 0.75}};
   for (const Case& each : cases) {
     INFO(each.name);
     optim::SearchLimits limits;
@@ -106,8 +109,9 @@ TEST_CASE("a search with foresight is the same search and comes together less of
       CountedRanks ranks(size);
       require_same(by_ranks(each.search, ranks, limits), alone);
       const double gain = static_cast<double>(alone.evaluations) / static_cast<double>(ranks.joins);
-      CAPTURE(size, alone.evaluations, ranks.joins, ranks.tasks, gain);
-      CHECK(ranks.tasks <= ranks.joins * static_cast<std::size_t>(size));
+      const double vain = 1 - static_cast<double>(alone.evaluations) / static_cast<double>(ranks.tasks);
+      CAPTURE(size, alone.evaluations, ranks.joins, ranks.tasks, gain, vain);
+      CHECK(vain <= each.most_vain);
       if (size == 4) CHECK(gain >= each.least_gain);
     }
   }

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "base/byte_record.h"
+#include "design/memory_need.h"
+#include "sim/bandwidth_ladder.h"
 
 using namespace catoptric;
 using namespace catoptric::design;
@@ -70,4 +72,20 @@ TEST_CASE("what ranks send each other is read back as it was") {
   CHECK(known.stages.back().error95_rel == 0.25);
   CHECK(known.counts.interactions == 7);
   CHECK(as_bytes(known) == as_bytes(field));
+}
+
+TEST_CASE("ranks that keep an accuracy's photons need memory for their part of them") {
+  const Scene scene = read_scene(std::string(CATOPTRIC_DATA) + "/paper/paraboloid.toml",
+                                 {{"model.rung", "\"photons\"", "test"},
+                                  {"accuracy", "0.01", "test"},
+                                  {"model.most_photons", "400000000", "test"}});
+  const auto alone = memory_need(scene).bytes, of_four = memory_need(scene, 4).bytes,
+             of_many = memory_need(scene, 1000).bytes;
+  CHECK(alone > 400'000'000 * 17ull);
+  CHECK(of_four < alone / 3);
+  CHECK(of_four > alone / 5);
+  CHECK(of_many < of_four);
+  CHECK(sim::most_kept_by_a_rank(1000, 1) == 1000);
+  CHECK(sim::most_kept_by_a_rank(1000, 3) == 500);  // four sets of one slice each
+  CHECK(sim::most_kept_by_a_rank(1000, 9) == 250);  // one set at least
 }

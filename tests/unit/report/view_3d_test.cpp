@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "report/run_view.h"
+
 using namespace catoptric;
 using namespace catoptric::report;
 
@@ -24,4 +26,24 @@ TEST_CASE("what would end a script is written otherwise, and nothing else") {
   CHECK(inside_script("<!-- <Script") == "\\u003c!-- \\u003cScript");
   const std::string harmless = "if (a<b && c</d/.test(s) <! <scrip <!- <";
   CHECK(inside_script(harmless) == harmless);
+}
+
+TEST_CASE("objects near the mirror are drawn and those far away are told of") {
+  const design::Scene scene = design::read_scene(CATOPTRIC_DATA "/paper/paraboloid.toml",
+                                                 {{"objects.board.kind", "\"disc\"", "test"},
+                                                  {"objects.board.center", "[0, 0, 5.5]", "test"},
+                                                  {"objects.board.radius", "1", "test"},
+                                                  {"objects.wall.kind", "\"rectangle\"", "test"},
+                                                  {"objects.wall.center", "[900, 0, 0]", "test"},
+                                                  {"objects.wall.normal", "[-1, 0, 0]", "test"},
+                                                  {"objects.wall.width", "10", "test"},
+                                                  {"objects.wall.height", "10", "test"}});
+  const View3d view = view_of(scene, scene.profile, scene.source, {});
+  REQUIRE(view.objects.size() == 1);
+  for (const Vector3& point : view.objects.front()) {
+    CHECK((point - Vector3(0, 0, 5.5)).norm() == Approx(1));  // in the scene's cm
+  }
+  CHECK(view.caption.find("Green: objects") != std::string::npos);
+  CHECK(view.caption.find("1 object is too far") != std::string::npos);
+  CHECK(view_json(view).find("\"objects\":[[[") != std::string::npos);
 }
