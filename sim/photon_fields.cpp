@@ -107,6 +107,19 @@ BatchFields batch_fields(const Bytes& bytes, std::size_t bandwidths) {
   return fields;
 }
 
+Bytes as_bytes(const std::vector<BatchFields>& sums) {
+  std::vector<Bytes> each;
+  for (const BatchFields& sum : sums) each.push_back(as_bytes(sum));
+  return ByteWriter().put(each).take();
+}
+
+std::vector<BatchFields> sums_of(const Bytes& bytes, std::size_t bandwidths) {
+  std::vector<BatchFields> sums;
+  for (const Bytes& each : ByteReader(bytes).get<std::vector<Bytes>>())
+    sums.push_back(batch_fields(each, bandwidths));
+  return sums;
+}
+
 /// Estimates from photons that have landed, which are used up.
 std::vector<MapEstimate> estimates(std::vector<FieldPart>& parts, std::size_t bandwidths,
                                    std::size_t samples) {
@@ -134,9 +147,10 @@ std::uint64_t chunks_at_once(std::uint64_t chunks, std::uint64_t batch,
 
 }  // namespace
 
-PhotonFields photon_fields(const Scene& scene, std::span<const FieldSample> samples,
-                           const PhotonOptions& photons, std::span<const EstimateOptions> bandwidths,
-                           std::uint64_t batch) {
+std::vector<PhotonFields> photon_fields_of_sets(const Scene& scene, std::span<const FieldSample> samples,
+                                                const PhotonOptions& photons,
+                                                std::span<const EstimateOptions> bandwidths,
+                                                std::uint64_t sets, std::uint64_t batch) {
   CATOPTRIC_EXPECTS(!bandwidths.empty() && batch > 0 && batch % photons_of_a_chunk == 0);
   for (const EstimateOptions& each : bandwidths) check(each);
   check(photons);
@@ -146,15 +160,18 @@ PhotonFields photon_fields(const Scene& scene, std::span<const FieldSample> samp
   const PhotonFlights flights(scene, parts.front().area, std::move(more));
   const std::uint64_t chunks = PhotonFlights::chunks(photons.photons);
   const std::uint64_t at_once = chunks_at_once(chunks, batch, bandwidths, parts.size());
-  const auto of_batch = [&](std::uint64_t number) {
+  const std::uint64_t batches = std::max<std::uint64_t>(1, (chunks + at_once - 1) / at_once);
+  const auto of_batch = [&](std::uint64_t set, std::uint64_t number) {
     for (FieldPart& part : parts) {
       part.landed.area = part.area;
       part.landed.photon_power_w = flights.photon_power_w(photons.photons);
       part.landed.chunks.assign(at_once, {});
     }
+    PhotonOptions of_set = photons;
+    of_set.stream += set;
     const std::uint64_t first = number * at_once;
     const FlightCounts counts = flights.fly_chunks(
-        photons,
+        of_set,
         [&](std::uint64_t i, std::vector<Crossing>&& crossings) {
           for (std::size_t field = 0; field < parts.size(); ++field)
             parts[field].landed.chunks[i - first] = store(crossings, parts[field].area, field);
@@ -162,24 +179,37 @@ PhotonFields photon_fields(const Scene& scene, std::span<const FieldSample> samp
         first, std::min(chunks, first + at_once));
     return BatchFields{estimates(parts, bandwidths.size(), samples.size()), counts};
   };
-  const std::uint64_t batches = std::max<std::uint64_t>(1, (chunks + at_once - 1) / at_once);
-  BatchFields sum{std::vector<MapEstimate>(bandwidths.size()), {}};
-  const auto add_batch = [&](BatchFields part) {
-    for (std::size_t i = 0; i < bandwidths.size(); ++i) add(sum.estimates[i], std::move(part.estimates[i]));
-    sum.counts.add(part.counts);
+  std::vector<BatchFields> sums(sets, {std::vector<MapEstimate>(bandwidths.size()), {}});
+  const auto add_batch = [&](std::uint64_t set, BatchFields part) {
+    for (std::size_t i = 0; i < bandwidths.size(); ++i)
+      add(sums[set].estimates[i], std::move(part.estimates[i]));
+    sums[set].counts.add(part.counts);
   };
-  if (photons.ranks && batches > 1) {
-    sum = batch_fields(
-        photons.ranks->join(
-            batches, [&](std::size_t number) { return as_bytes(of_batch(number)); },
-            [&](std::size_t, const Bytes& result) { add_batch(batch_fields(result, bandwidths.size())); },
-            [&] { return as_bytes(sum); }),
-        bandwidths.size());
+  const std::uint64_t tasks = sets * batches;
+  if (photons.ranks && tasks > 1) {
+    const Bytes all = photons.ranks->join(
+        tasks, [&](std::size_t task) { return as_bytes(of_batch(task / batches, task % batches)); },
+        [&](std::size_t task, const Bytes& result) {
+          add_batch(task / batches, batch_fields(result, bandwidths.size()));
+        },
+        [&] { return as_bytes(sums); });
+    sums = sums_of(all, bandwidths.size());
   } else {
-    for (std::uint64_t number = 0; number < batches; ++number) add_batch(of_batch(number));
+    for (std::uint64_t task = 0; task < tasks; ++task)
+      add_batch(task / batches, of_batch(task / batches, task % batches));
   }
-  const FlightTotals totals = flights.totals(photons.photons, sum.counts);
-  return {std::move(sum.estimates), totals.energy, totals.counts};
+  std::vector<PhotonFields> fields;
+  for (BatchFields& sum : sums) {
+    const FlightTotals totals = flights.totals(photons.photons, sum.counts);
+    fields.push_back({std::move(sum.estimates), totals.energy, totals.counts});
+  }
+  return fields;
+}
+
+PhotonFields photon_fields(const Scene& scene, std::span<const FieldSample> samples,
+                           const PhotonOptions& photons, std::span<const EstimateOptions> bandwidths,
+                           std::uint64_t batch) {
+  return std::move(photon_fields_of_sets(scene, samples, photons, bandwidths, 1, batch).front());
 }
 
 std::uint64_t photon_batches(std::uint64_t photons, std::span<const EstimateOptions> bandwidths,

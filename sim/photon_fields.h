@@ -29,7 +29,6 @@ struct PhotonFields {
 /// Rung "photons" from flight to irradiance. With fixed radii an estimate is a sum over photons, so that they
 /// are traced, mapped, summed and forgotten batch after batch: any number of photons in the same memory. The
 /// nearest N are only known when all are there.
-/// Several batches are shared by the ranks of `photons`.
 /// @in    samples on the near field; at least one bandwidth; batch: a multiple of photons_of_a_chunk
 /// @out   the same bits for any number of threads and ranks; those of one map where a batch holds all photons
 /// @fails as trace_photons and PhotonMap::estimate
@@ -37,6 +36,13 @@ struct PhotonFields {
 PhotonFields photon_fields(const Scene& scene, std::span<const FieldSample> samples,
                            const PhotonOptions& photons, std::span<const EstimateOptions> bandwidths,
                            std::uint64_t batch = photons_of_a_batch);
+
+/// The same of several independent sets, set i on stream + i. The ranks of `photons` share the batches of
+/// all.
+std::vector<PhotonFields> photon_fields_of_sets(const Scene& scene, std::span<const FieldSample> samples,
+                                                const PhotonOptions& photons,
+                                                std::span<const EstimateOptions> bandwidths,
+                                                std::uint64_t sets, std::uint64_t batch = photons_of_a_batch);
 
 /// Into how many batches photon_fields() cuts so many photons.
 /// @in fields  where irradiance is asked for, the near field counted

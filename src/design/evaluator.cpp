@@ -87,20 +87,20 @@ double mean(std::span<const double> values) {
   return ordered_sum(values) / static_cast<double>(values.size());
 }
 
-Evaluation evaluate_by_photons(const Scene& scene, const Stage& stage,
-                               std::span<const sim::FieldSample> samples, std::uint64_t stream) {
+std::vector<Evaluation> evaluate_by_photons(const Scene& scene, const Stage& stage,
+                                            std::span<const sim::FieldSample> samples, std::uint64_t stream,
+                                            std::uint64_t count) {
   const sim::EstimateOptions& full = scene.model.estimate;
-  sim::PhotonFields photons = sim::photon_fields(stage.scene, samples, photon_options(scene, stream),
-                                                 std::array{full, half_area(full)});
-  sim::MapEstimate& wide = photons.estimates.front();
-  std::vector<double> sharp = extrapolated(wide.irradiance, photons.estimates.back().irradiance);
-  return {sim::Rung::photons,
-          sim::direct_field(stage.scene, samples),
-          std::move(wide.irradiance),
-          std::move(sharp),
-          mean(wide.kernel_radius_mm),
-          photons.energy,
-          photons.counts};
+  const std::vector<double> direct = sim::direct_field(stage.scene, samples);
+  std::vector<Evaluation> evaluations;
+  for (sim::PhotonFields& photons : sim::photon_fields_of_sets(
+           stage.scene, samples, photon_options(scene, stream), std::array{full, half_area(full)}, count)) {
+    sim::MapEstimate& wide = photons.estimates.front();
+    std::vector<double> sharp = extrapolated(wide.irradiance, photons.estimates.back().irradiance);
+    evaluations.push_back({sim::Rung::photons, direct, std::move(wide.irradiance), std::move(sharp),
+                           mean(wide.kernel_radius_mm), photons.energy, photons.counts});
+  }
+  return evaluations;
 }
 
 Evaluation evaluate_by_rings(const Scene& scene, const Stage& stage,
@@ -184,7 +184,13 @@ Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Candidate&
       return {rung, std::move(direct), std::move(*wide), std::move(sharp), radius_mm, {}, {}};
     }
   }
-  return evaluate_by_photons(scene, stage, samples, stream);
+  return std::move(evaluate_by_photons(scene, stage, samples, stream, 1).front());
+}
+
+std::vector<Evaluation> evaluate_sets_by_photons(const Scene& scene, const Candidate& candidate,
+                                                 std::span<const sim::FieldSample> samples,
+                                                 std::uint64_t stream, std::uint64_t count) {
+  return evaluate_by_photons(scene, Stage(scene, candidate), samples, stream, count);
 }
 
 double root_mean_square_error(std::span<const double> values, std::span<const double> target,

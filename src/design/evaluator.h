@@ -46,6 +46,11 @@ struct Evaluation {
 Evaluation evaluate_by_rung(const Scene& scene, sim::Rung rung, const Candidate& candidate,
                             std::span<const sim::FieldSample> samples, std::uint64_t stream);
 
+/// The same by so many sets of photons, set i on stream + i, whose batches the scene's ranks share.
+std::vector<Evaluation> evaluate_sets_by_photons(const Scene& scene, const Candidate& candidate,
+                                                 std::span<const sim::FieldSample> samples,
+                                                 std::uint64_t stream, std::uint64_t count);
+
 // The same for a mirror's shape in the scene as it is written.
 inline sim::Plan make_plan(const Scene& scene, const Profile& profile) {
   return make_plan(scene, scene.with(profile));

@@ -134,12 +134,13 @@ std::vector<Evaluation> evaluations(const Scene& scene, const Target& target, co
     rung = list.front().rung;
     if (rung == sim::Rung::tubes) return list;
   }
-  const std::uint64_t begun = list.size();
-  if (!shares_replicates(scene, rung, ranks_of(scene))) {
-    for (std::uint64_t i = begun; i < scene.model.replicates; ++i) list.push_back(at(i));
+  const std::uint64_t begun = list.size(), left = scene.model.replicates - begun;
+  if (rung == sim::Rung::photons) {
+    for (Evaluation& each :
+         evaluate_sets_by_photons(scene, candidate, target.samples, first_stream + begun, left))
+      list.push_back(std::move(each));
     return list;
   }
-  const std::uint64_t left = scene.model.replicates - begun;
   for (const Bytes& each :
        ranks_of(scene).share(left, [&](std::size_t i) { return as_bytes(at(begun + i)); }))
     list.push_back(evaluation_of(each));

@@ -9,15 +9,14 @@
 namespace catoptric::design {
 namespace {
 
-std::uint64_t batches(const Scene& scene) {
+/// What ranks share of a verdict by photons.
+std::string tasks(const Scene& scene) {
   const sim::EstimateOptions bandwidth = scene.model.estimate;
-  return sim::photon_batches(scene.model.photons.photons, std::span(&bandwidth, 1), 1 + scene.fields.size());
-}
-
-/// Share of the ranks' time that so many tasks of equal length keep busy.
-double busy_share(std::uint64_t tasks, std::uint64_t ranks) {
-  const std::uint64_t rounds = (tasks + ranks - 1) / ranks;
-  return static_cast<double>(tasks) / static_cast<double>(rounds * ranks);
+  const std::uint64_t batches =
+      sim::photon_batches(scene.model.photons.photons, std::span(&bandwidth, 1), 1 + scene.fields.size());
+  return batches == 1
+             ? fmt::format("{} replicates", scene.model.replicates)
+             : fmt::format("{} batches of photons of each of {} replicates", batches, scene.model.replicates);
 }
 
 }  // namespace
@@ -189,14 +188,6 @@ SearchPath search_path_of(const Bytes& bytes) {
   return path;
 }
 
-bool shares_replicates(const Scene& scene, sim::Rung rung, const Ranks& ranks) {
-  if (rung != sim::Rung::photons) return true;
-  const auto busy = [&](std::uint64_t tasks) {
-    return busy_share(tasks, static_cast<std::uint64_t>(ranks.size()));
-  };
-  return busy(scene.model.replicates) >= busy(batches(scene));
-}
-
 bool shares_evaluations(const Scene& scene, sim::Rung rung, const Ranks& ranks) {
   return ranks.size() > 1 && rung != sim::Rung::tubes && scene.search.method != "none" &&
          scene.search.method != "levenberg-marquardt";
@@ -205,16 +196,13 @@ bool shares_evaluations(const Scene& scene, sim::Rung rung, const Ranks& ranks) 
 std::string sharing_sentence(const Scene& scene, const std::optional<sim::Rung>& searched,
                              const Ranks& ranks) {
   if (ranks.size() == 1) return "";
-  std::string sentence = scene.accuracy_rel
-                             ? fmt::format(
-                                   "{} ranks: each keeps a part of the photons that the accuracy takes, if "
-                                   "it takes any, and looks at it",
-                                   ranks.size())
-                         : shares_replicates(scene, sim::Rung::photons, ranks)
-                             ? fmt::format("{} ranks: the {} replicates of a verdict are shared",
-                                           ranks.size(), scene.model.replicates)
-                             : fmt::format("{} ranks: the {} batches of photons of each replicate are shared",
-                                           ranks.size(), batches(scene));
+  std::string sentence =
+      scene.accuracy_rel
+          ? fmt::format(
+                "{} ranks: each keeps a part of the photons that the accuracy takes, if "
+                "it takes any, and looks at it",
+                ranks.size())
+          : fmt::format("{} ranks: the {} of a verdict are shared", ranks.size(), tasks(scene));
   if (searched && shares_evaluations(scene, *searched, ranks))
     sentence +=
         fmt::format("; a search computes up to {} points that it may ask for side by side", ranks.size());

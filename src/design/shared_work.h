@@ -39,10 +39,6 @@ SearchPath search_path_of(const Bytes& bytes);
 std::string sharing_sentence(const Scene& scene, const std::optional<sim::Rung>& searched,
                              const Ranks& ranks);
 
-/// Whether the replicates of a verdict are shared, or else the batches of photons of each in turn: whichever
-/// leaves ranks idle for less of their time.
-bool shares_replicates(const Scene& scene, sim::Rung rung, const Ranks& ranks);
-
 /// Whether points that a search may ask for next are evaluated side by side. Ray tubes are too quick for it
 /// and a fit asks one point at a time: rank 0 searches alone then.
 bool shares_evaluations(const Scene& scene, sim::Rung rung, const Ranks& ranks);

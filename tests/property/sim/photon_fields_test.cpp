@@ -60,6 +60,31 @@ TEST_CASE("one batch is one map, bit for bit, and the nearest N are never cut in
   }
 }
 
+TEST_CASE("several sets are the sets one by one, bit for bit, with and without ranks") {
+  const auto samples = field.samples(50);
+  PhotonOptions photons{10'000, Sampler::sobol, 3, 5, 1000};
+  const std::array bandwidths{wide, narrow};
+  Ranks ranks;
+  for (Ranks* shared : {static_cast<Ranks*>(nullptr), &ranks}) {
+    photons.ranks = shared;
+    const auto sets = photon_fields_of_sets(scene, samples, photons, bandwidths, 3, 4 * photons_of_a_chunk);
+    REQUIRE(sets.size() == 3);
+    for (std::uint64_t set = 0; set < 3; ++set) {
+      PhotonOptions one = photons;
+      one.ranks = nullptr;
+      one.stream += set;
+      const PhotonFields expected = photon_fields(scene, samples, one, bandwidths, 4 * photons_of_a_chunk);
+      for (std::size_t k = 0; k < bandwidths.size(); ++k) {
+        CHECK(sets[set].estimates[k].irradiance == expected.estimates[k].irradiance);
+        CHECK(sets[set].estimates[k].noise == expected.estimates[k].noise);
+      }
+      CHECK(sets[set].counts.stored == expected.counts.stored);
+      CHECK(sets[set].energy.received_w == expected.energy.received_w);
+    }
+    CHECK(sets[0].estimates[0].irradiance != sets[1].estimates[0].irradiance);
+  }
+}
+
 TEST_CASE("the memory that photons take is bounded by a batch, or grows where all are kept") {
   CHECK(photon_memory_bytes(4'000'000'000, wide) == photon_memory_bytes(photons_of_a_batch, wide));
   CHECK(photon_memory_bytes(1000, wide) == 36'000);

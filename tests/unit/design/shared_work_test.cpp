@@ -27,18 +27,19 @@ Scene scene_with(const char* photons, const char* replicates) {
                      {"model.kernel_radius", "0.5", "test"}});
 }
 
-bool replicates_are_shared(const char* photons, const char* replicates, int ranks) {
-  return shares_replicates(scene_with(photons, replicates), sim::Rung::photons, SoManyRanks(ranks));
-}
-
 }  // namespace
 
-TEST_CASE("ranks share replicates or the batches of each by what keeps them busier") {
-  CHECK(replicates_are_shared("100000", "8", 64));       // one batch
-  CHECK(replicates_are_shared("1000000000", "8", 4));    // 8 of 4, 60 of 4: as busy, fewer messages
-  CHECK(!replicates_are_shared("1000000000", "8", 64));  // 8 of 64, 60 of 64
-  CHECK(!replicates_are_shared("4294967295", "233", 64));
-  CHECK(shares_replicates(scene_with("4294967295", "8"), sim::Rung::rings, SoManyRanks(64)));
+TEST_CASE("explain says what ranks share") {
+  const auto words = [](const char* photons, int ranks, std::optional<sim::Rung> searched) {
+    return sharing_sentence(scene_with(photons, "8"), searched, SoManyRanks(ranks));
+  };
+  CHECK(words("100000", 1, {}).empty());
+  CHECK(words("100000", 64, {}) == "64 ranks: the 8 replicates of a verdict are shared");
+  CHECK(words("1000000000", 64, sim::Rung::photons) ==
+        "64 ranks: the 60 batches of photons of each of 8 replicates of a verdict are shared; a search "
+        "computes "
+        "up to 64 points that it may ask for side by side");
+  CHECK(words("100000", 4, sim::Rung::tubes).find("the search is rank 0's alone") != std::string::npos);
 }
 
 TEST_CASE("what ranks send each other is read back as it was") {
