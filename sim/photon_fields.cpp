@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/byte_record.h"
 #include "base/contract.h"
@@ -90,34 +91,16 @@ struct BatchFields {
   FlightCounts counts;
 };
 
-Bytes as_bytes(const BatchFields& fields) {
-  ByteWriter writer;
+void put(ByteWriter& writer, const BatchFields& fields) {
   writer.put(fields.counts);
   for (const MapEstimate& each : fields.estimates)
     writer.put(each.irradiance).put(each.noise).put(each.kernel_radius_mm).put(each.photons);
-  return writer.take();
 }
 
-BatchFields batch_fields(const Bytes& bytes, std::size_t bandwidths) {
-  BatchFields fields{std::vector<MapEstimate>(bandwidths), {}};
-  ByteReader reader(bytes);
+void get(ByteReader& reader, BatchFields& fields) {
   reader.get(fields.counts);
   for (MapEstimate& each : fields.estimates)
     reader.get(each.irradiance).get(each.noise).get(each.kernel_radius_mm).get(each.photons);
-  return fields;
-}
-
-Bytes as_bytes(const std::vector<BatchFields>& sums) {
-  std::vector<Bytes> each;
-  for (const BatchFields& sum : sums) each.push_back(as_bytes(sum));
-  return ByteWriter().put(each).take();
-}
-
-std::vector<BatchFields> sums_of(const Bytes& bytes, std::size_t bandwidths) {
-  std::vector<BatchFields> sums;
-  for (const Bytes& each : ByteReader(bytes).get<std::vector<Bytes>>())
-    sums.push_back(batch_fields(each, bandwidths));
-  return sums;
 }
 
 /// Estimates from photons that have landed, which are used up.
@@ -179,21 +162,33 @@ std::vector<PhotonFields> photon_fields_of_sets(const Scene& scene, std::span<co
         first, std::min(chunks, first + at_once));
     return BatchFields{estimates(parts, bandwidths.size(), samples.size()), counts};
   };
-  std::vector<BatchFields> sums(sets, {std::vector<MapEstimate>(bandwidths.size()), {}});
+  const BatchFields none{std::vector<MapEstimate>(bandwidths.size()), {}};
+  std::vector<BatchFields> sums(sets, none);
   const auto add_batch = [&](std::uint64_t set, BatchFields part) {
     for (std::size_t i = 0; i < bandwidths.size(); ++i)
       add(sums[set].estimates[i], std::move(part.estimates[i]));
     sums[set].counts.add(part.counts);
   };
   const std::uint64_t tasks = sets * batches;
-  if (photons.ranks && tasks > 1) {
-    const Bytes all = photons.ranks->join(
-        tasks, [&](std::size_t task) { return as_bytes(of_batch(task / batches, task % batches)); },
-        [&](std::size_t task, const Bytes& result) {
-          add_batch(task / batches, batch_fields(result, bandwidths.size()));
-        },
-        [&] { return as_bytes(sums); });
-    sums = sums_of(all, bandwidths.size());
+  if (photons.ranks && !photons.ranks->is_alone()) {
+    const auto compute = [&](std::size_t task) {
+      ByteWriter writer;
+      put(writer, of_batch(task / batches, task % batches));
+      return writer.take();
+    };
+    const auto take = [&](std::size_t task, const Bytes& result) {
+      BatchFields part = none;
+      ByteReader reader(result);
+      get(reader, part);
+      add_batch(task / batches, std::move(part));
+    };
+    const Bytes all = photons.ranks->join(tasks, compute, take, [&] {
+      ByteWriter writer;
+      for (BatchFields& sum : sums) put(writer, std::exchange(sum, none));
+      return writer.take();
+    });
+    ByteReader reader(all);
+    for (BatchFields& sum : sums) get(reader, sum);
   } else {
     for (std::uint64_t task = 0; task < tasks; ++task)
       add_batch(task / batches, of_batch(task / batches, task % batches));

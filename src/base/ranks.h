@@ -29,6 +29,10 @@ class Ranks {
 
   virtual int rank() const { return 0; }
   virtual int size() const { return 1; }
+  /// How many of them share this machine's memory.
+  virtual int size_here() const { return 1; }
+  /// Whether nobody else asks for what is computed, now: it need not be made bytes.
+  virtual bool is_alone() const { return true; }
   /// Rank 0, which alone writes, prints and asks the user's signals.
   bool leads() const { return rank() == 0; }
 

@@ -13,6 +13,7 @@ using JoinLog = std::vector<Bytes>;
 /// A process by itself that keeps what its joins give. The last entry is an error where one ended the work.
 class RecordingRanks : public Ranks {
  public:
+  bool is_alone() const override { return inside_; }
   Bytes join(std::size_t count, const Compute& compute, const Take& take, const Joined& joined) override;
   const JoinLog& log() const { return log_; }
 
@@ -26,6 +27,7 @@ class RecordingRanks : public Ranks {
 class RepeatingRanks : public Ranks {
  public:
   explicit RepeatingRanks(JoinLog log) : log_(std::move(log)) {}
+  bool is_alone() const override { return false; }
   Bytes join(std::size_t count, const Compute& compute, const Take& take, const Joined& joined) override;
 
  private:

@@ -14,7 +14,7 @@ namespace catoptric::cli {
 namespace {
 
 std::filesystem::path prepared_folder(const CommonOptions& options, const design::Scene& scene) {
-  design::require_memory(scene, options.ranks->size());
+  design::require_memory(scene, options.ranks->size(), options.ranks->size_here());
   std::filesystem::path out = options.out_folder();
   if (options.leads()) prepare_output_folder(out, report::room_for(scene));
   return out;

@@ -129,15 +129,25 @@ class StudyRunner {
       report::StudyRow row = run_one(list_, list_.runs[i], scenes_[i], alone);
       const ScratchFolder made;
       write_files(row, made.path());
-      return ByteWriter().put(recorder.log()).put(row.error).put(folder_bytes(made.path())).take();
+      return ByteWriter()
+          .put(row.designed || row.simulated)
+          .put(row.error)
+          .put(recorder.log())
+          .put(folder_bytes(made.path()))
+          .take();
     };
     const auto repeated = [&](std::size_t i, const Bytes& sent) {
       if (sent.empty()) return;
       prepare_output_folder(folder(i), report::room_for(scenes_[i]));
       ByteReader reader(sent);
+      const bool has_result = reader.get<bool>();
+      report::StudyRow row{list_.runs[i], scenes_[i], {}, {}, reader.get<std::string>()};
       RepeatingRanks repeating(reader.get<JoinLog>());
-      report::StudyRow row = run_one(list_, list_.runs[i], scenes_[i], {.ranks = &repeating});
-      reader.get(row.error);
+      if (has_result) {
+        report::StudyRow again = run_one(list_, list_.runs[i], scenes_[i], {.ranks = &repeating});
+        if (again.error.empty()) again.error = std::move(row.error);
+        row = std::move(again);
+      }
       rows_.push_back(std::move(row));
       write_beside([files = reader.get<std::string>(), to = folder(i)] { write_folder(files, to); });
     };
@@ -172,8 +182,11 @@ ExitCode study_command(const CommonOptions& options) {
   std::vector<design::Scene> scenes;  // all are checked before the first one runs
   for (const design::StudyRun& run : list.runs) {
     scenes.push_back(design::study_scene(run, options.overrides()));
-    design::require_memory(scenes.back());
   }
+  // Runs that are fewer than the ranks are shared by all of them.
+  const bool one_rank_each = list.runs.size() >= static_cast<std::size_t>(options.ranks->size());
+  for (const design::Scene& scene : scenes)
+    design::require_memory(scene, one_rank_each ? 1 : options.ranks->size(), options.ranks->size_here());
   const std::filesystem::path out = options.out_folder();
   std::uint64_t room = 0;
   for (const design::Scene& scene : scenes) room += report::room_for(scene);

@@ -29,6 +29,8 @@ class Messenger {
   virtual ~Messenger() = default;
   virtual int rank() const = 0;
   virtual int size() const = 0;
+  /// Processes of the run on this machine, this one counted.
+  virtual int size_here() const = 0;
   /// May wait until the other process looks for messages.
   virtual void send(int to, Topic topic, const Bytes& bytes) = 0;
   /// A message that has arrived, if any.

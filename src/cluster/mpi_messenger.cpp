@@ -11,7 +11,8 @@ namespace {
 
 /// Messages through MPI's C interface. Errors of MPI end all processes, which is what it does unless told
 /// otherwise.
-/// @from MPI: A Message-Passing Interface Standard 3.1, chapters 3 (point-to-point) and 12.4 (threads)
+/// @from MPI: A Message-Passing Interface Standard 3.1, chapters 3 (point-to-point), 6.4.2 (who shares
+/// memory) and 12.4 (threads)
 class MpiMessenger : public Messenger {
  public:
   MpiMessenger() {
@@ -21,6 +22,10 @@ class MpiMessenger : public Messenger {
     if (given < MPI_THREAD_SERIALIZED) MPI_Abort(MPI_COMM_WORLD, 1);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    MPI_Comm here;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &here);
+    MPI_Comm_size(here, &size_here_);
+    MPI_Comm_free(&here);
   }
   MpiMessenger(const MpiMessenger&) = delete;
   MpiMessenger& operator=(const MpiMessenger&) = delete;
@@ -28,6 +33,7 @@ class MpiMessenger : public Messenger {
 
   int rank() const override { return rank_; }
   int size() const override { return size_; }
+  int size_here() const override { return size_here_; }
 
   /// The length first, then pieces, since MPI counts in int.
   void send(int to, Topic topic, const Bytes& bytes) override {
@@ -57,7 +63,7 @@ class MpiMessenger : public Messenger {
 
  private:
   static constexpr std::uint64_t piece = std::uint64_t{1} << 30;
-  int rank_ = 0, size_ = 1;
+  int rank_ = 0, size_ = 1, size_here_ = 1;
 };
 
 }  // namespace

@@ -20,6 +20,7 @@ class Alone : public Messenger {
  public:
   int rank() const override { return 0; }
   int size() const override { return 1; }
+  int size_here() const override { return 1; }
   void send(int, Topic, const Bytes&) override {}
   std::optional<Message> look() override { return std::nullopt; }
   void abort(int) override {}

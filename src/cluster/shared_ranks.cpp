@@ -177,6 +177,7 @@ SharedRanks::~SharedRanks() = default;
 
 int SharedRanks::rank() const { return messenger_->rank(); }
 int SharedRanks::size() const { return messenger_->size(); }
+int SharedRanks::size_here() const { return messenger_->size_here(); }
 
 Bytes SharedRanks::join(std::size_t count, const Compute& compute, const Take& take, const Joined& joined) {
   if (inside_ || size() == 1) return Ranks::join(count, compute, take, joined);
@@ -218,7 +219,7 @@ std::vector<Bytes> SharedRanks::gather(Bytes own) {
     end_if_farewell(message);
     Request request = Request::of(message.bytes);
     require_here(message.from, request.join);
-    kept[request.done] = std::move(request.result);
+    kept[static_cast<std::size_t>(message.from)] = std::move(request.result);
   }
   for (Bytes& each : kept) each = result_of(std::move(each));
   return kept;

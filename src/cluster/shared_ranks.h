@@ -17,6 +17,8 @@ class SharedRanks : public Ranks {
 
   int rank() const override;
   int size() const override;
+  int size_here() const override;
+  bool is_alone() const override { return inside_ || size() == 1; }
 
   /// @in    take and joined ask no joins themselves
   /// @fails as Ranks::join; Interrupted where rank 0 has ended with an error. Ends all processes, with a

@@ -17,6 +17,7 @@ namespace {
 constexpr std::uint64_t program_bytes = 120'000'000;  // its libraries, files on their way out, bins of rings
 /// Direct, wide, narrow, noise, bias and what they are joined from, for each replicate.
 constexpr std::uint64_t numbers_of_a_sample = 8;
+constexpr std::uint64_t numbers_sent = 16;  ///< the same once more as bytes, on their way among ranks
 
 std::string size(std::uint64_t bytes) {
   const double megabytes = static_cast<double>(bytes) / 1e6;
@@ -40,8 +41,8 @@ MemoryNeed memory_need(const Scene& scene, int ranks) {
   // Each field has a map of its own; of a fixed radius all maps together hold one batch.
   const std::uint64_t maps = bandwidth.neighbours ? 1 + scene.fields.size() : 1;
   const std::uint64_t photons = maps * sim::photon_memory_bytes(scene.model.photons.photons, bandwidth);
-  const std::uint64_t samples =
-      numbers_of_a_sample * sizeof(double) * all_samples(scene) * scene.model.replicates;
+  const std::uint64_t samples = (numbers_of_a_sample + (ranks > 1 ? numbers_sent : 0)) * sizeof(double) *
+                                all_samples(scene) * scene.model.replicates;
   if (proof_keeps_photons(scene)) {
     const std::uint64_t kept = sim::most_kept_by_a_rank(scene.model.most_photons, ranks);
     const std::uint64_t proof = sim::bytes_of_a_stored_photon * kept;
@@ -75,12 +76,15 @@ bool fits_memory(const Scene& scene) {
   return !available || memory_need(scene).bytes <= *available;
 }
 
-void require_memory(const Scene& scene, int ranks) {
+void require_memory(const Scene& scene, int ranks, int ranks_here) {
   const MemoryNeed need = memory_need(scene, ranks);
   const auto available = available_memory_bytes();
-  if (!available || need.bytes <= *available) return;
+  const auto here = static_cast<std::uint64_t>(ranks_here);
+  if (!available || need.bytes * here <= *available) return;
+  const std::string beside = here > 1 ? fmt::format(" for {} ranks on this machine", here) : "";
   throw scene.settings.error(need.key, "the scene would not fit into memory",
-                             fmt::format("{}; {} are free", need.sentence, size(*available)), need.hint);
+                             fmt::format("{}; {} are free{}", need.sentence, size(*available), beside),
+                             need.hint);
 }
 
 }  // namespace catoptric::design

@@ -25,8 +25,9 @@ std::uint64_t photons_that_fit();
 /// Whether a scene fits into the memory that is free now.
 bool fits_memory(const Scene& scene);
 
-/// Refuses a scene that would not fit, before anything is computed.
+/// Refuses a scene that would not fit, before anything is computed: `ranks` share it, of which
+/// `ranks_here` share this machine's memory.
 /// @fails InputError naming the key to change
-void require_memory(const Scene& scene, int ranks = 1);
+void require_memory(const Scene& scene, int ranks = 1, int ranks_here = 1);
 
 }  // namespace catoptric::design

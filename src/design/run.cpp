@@ -103,7 +103,7 @@ DesignResult run_design(const Scene& given, const RunControl& control) {
                                "design moves at least one variable",
                                "[variables.w1] with step, lower and upper");
   need_target(scene, "design");
-  require_memory(scene, ranks_of(scene).size());
+  require_memory(scene, ranks_of(scene).size(), ranks_of(scene).size_here());
   const Candidate start = start_candidate(scene);
   const SceneFamily family = family_of(scene);
   sim::Plan plan = make_plan(scene, family);
@@ -118,9 +118,10 @@ DesignResult run_design(const Scene& given, const RunControl& control) {
   control.tell({"verify", 1.0, outcome.value < infeasible_floor ? outcome.value : NAN, outcome.evaluations});
   Judgement start_judgement = verdict(scene, target, start, control);
   Judgement best_judgement =
-      scene.accuracy_rel ? judge_to_accuracy(shared(given, control), make_sharp_target(given), best,
-                                             verdict_stream, true, watch_accuracy(scene, control, "verify"))
-                         : verdict(scene, target, best, control);
+      scene.accuracy_rel
+          ? judge_to_accuracy(shared(given, control), make_sharp_target(shared(given, control)), best,
+                              verdict_stream, true, watch_accuracy(scene, control, "verify"))
+          : verdict(scene, target, best, control);
   std::uint64_t photons = emitted(start_judgement) + emitted(best_judgement);
   if (plan.rung != sim::Rung::tubes)
     photons += scene.model.photons.photons * static_cast<std::uint64_t>(outcome.evaluations);
@@ -147,7 +148,7 @@ sim::Plan simulation_plan(const Scene& scene, const Candidate& candidate) {
 
 SimulationResult run_simulation(const Scene& given, const RunControl& control) {
   const Scene scene = shared(given, control);
-  require_memory(scene, ranks_of(scene).size());
+  require_memory(scene, ranks_of(scene).size(), ranks_of(scene).size_here());
   const Stopwatch watch;
   const Candidate start = start_candidate(scene);
   sim::Plan plan = simulation_plan(scene, start);
@@ -173,7 +174,7 @@ Landscape run_landscape(const Scene& given, const RunControl& control) {
   if (!scene.landscape)
     throw scene.settings.error("landscape.variables", "is missing", "landscape needs one or two variables",
                                "landscape.variables = [\"w1\", \"r2\"] with lower, upper and steps");
-  require_memory(scene, ranks_of(scene).size());
+  require_memory(scene, ranks_of(scene).size(), ranks_of(scene).size_here());
   const Stopwatch watch;
   const LandscapeSpec& spec = *scene.landscape;
   Landscape result{spec.variables, {}, {}, {}, 0};

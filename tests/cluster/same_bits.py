@@ -212,6 +212,9 @@ def main():
              "--set search.method=cma-es --set search.most_evaluations=25".split(), 5, (3,))
         same("accuracy by photons", work, ["simulate", paraboloid] +
              "--set model.rung=photons --set accuracy=0.01".split(), 0)
+        # Out of photons on purpose: sets of 2^21 photons are kept in two slices.
+        same("accuracy in slices", work, ["simulate", paraboloid] +
+             "--set model.rung=photons --set accuracy=1e-6 --set model.most_photons=12000000".split(), 5)
         same("accuracy by rings", work, ["simulate", paraboloid] +
              "--set model.rung=rings --set accuracy=0.001".split(), 0)
         same("accuracy of a design", work, ["design", start_a, "--set", "accuracy=0.02"], 0, (2,))

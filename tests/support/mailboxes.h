@@ -22,6 +22,7 @@ class Mailboxes {
     Box(Mailboxes& all, int rank) : all_(all), rank_(rank) {}
     int rank() const override { return rank_; }
     int size() const override { return static_cast<int>(all_.boxes_.size()); }
+    int size_here() const override { return size(); }
     void send(int to, cluster::Topic topic, const Bytes& bytes) override {
       const std::scoped_lock lock(all_.mutex_);
       all_.boxes_[static_cast<std::size_t>(to)].push_back({rank_, topic, bytes});
