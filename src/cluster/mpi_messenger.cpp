@@ -69,6 +69,6 @@ class MpiMessenger : public Messenger {
 }  // namespace
 }  // namespace catoptric::cluster
 
-extern "C" catoptric::cluster::Messenger* catoptric_open_mpi() {
+extern "C" catoptric::cluster::Messenger* catoptric_open_mpi_2() {
   return new catoptric::cluster::MpiMessenger;
 }

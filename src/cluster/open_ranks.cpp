@@ -58,7 +58,7 @@ OpenMessenger opener() {
   void* module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (!module) refuse(::dlerror());
   void* symbol = ::dlsym(module, mpi_module_symbol);
-  if (!symbol) refuse(::dlerror());
+  if (!symbol) refuse(fmt::format("{} is of another version of this program", file.string()));
   return reinterpret_cast<OpenMessenger>(symbol);
 }
 

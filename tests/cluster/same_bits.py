@@ -193,6 +193,19 @@ def failures(work):
     check(full.returncode == 6, f"a folder that cannot be made ended with {full.returncode}: {full.stderr}")
 
 
+def other_version(work):
+    """A file without the function that this program asks for, as another version of it would be."""
+    libraries = subprocess.run(["ldd", str(PROGRAM)], capture_output=True, text=True).stdout
+    folder = work / "other"
+    folder.mkdir()
+    shutil.copy(PROGRAM, folder / "catoptric")
+    shutil.copy(re.search(r"libm\.so\.6 => (\S+)", libraries).group(1), folder / "catoptric_mpi.so")
+    ended = subprocess.run(["mpirun", "--oversubscribe", "-n", "2", str(folder / "catoptric"), "--version"], env=ENVIRONMENT,
+                           timeout=LONGEST, capture_output=True, text=True)
+    check(ended.returncode == 2, f"a module of another version ended with {ended.returncode}: {ended.stderr}")
+    check("another version" in ended.stderr, f"a module of another version was not told of: {ended.stderr}")
+
+
 def main():
     if not shutil.which("mpirun") or not (PROGRAM.parent / "catoptric_mpi.so").exists():
         print("no mpirun, or built without MPI: nothing compared")
@@ -226,6 +239,7 @@ def main():
         same("study of fewer runs than ranks", work, ["study", study_file(work)] + SMALL, 4, (5,))
         resumed(work)
         failures(work)
+        other_version(work)
         killed_rank(work)
         interrupted(work)
         told_to_stop(work)
