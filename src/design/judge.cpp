@@ -100,8 +100,11 @@ void fill_metrics(Judgement& judgement, const Scene& scene, const Target& target
   judgement.has_objective = !target.irradiance_w_per_mm2.empty();
   for (Metric metric : all_metrics()) {
     if (!metric_value(metric, scene, target.irradiance_w_per_mm2, target)) continue;
+    // Where the target is blurred alike, it is the blurred field that compares to it; what is said of the
+    // field itself is said of the field without blur.
+    const Rows& truth = target.through_kernel && !more_is_better(metric) ? reflected : sharp;
     take_figure(judgement, scene, metric,
-                judge_metric(metric, scene, target, reflected, sharp, judgement.direct));
+                judge_metric(metric, scene, target, reflected, truth, judgement.direct));
   }
 }
 
@@ -214,9 +217,7 @@ Judgement judge(const Scene& scene, const Target& target, const Candidate& candi
   judgement.field = field_figures(scene, target.samples, judgement.direct, reflected, sharp);
   judgement.further = further_figures(scene, target.samples, judgement.direct, reflected, sharp);
   require_seen_light(scene, judgement);
-  // Where the target is blurred alike, it is the blurred field that compares to it.
-  fill_metrics(judgement, with_source(scene, candidate), target, reflected,
-               target.through_kernel ? reflected : sharp);
+  fill_metrics(judgement, with_source(scene, candidate), target, reflected, sharp);
   add_intensity(judgement, target, candidate, rung, first_stream);
   return judgement;
 }

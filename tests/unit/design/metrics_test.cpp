@@ -113,3 +113,23 @@ TEST_CASE("flux is a share of the power that the design has, where the power is 
   // Ray tubes are asked for 2.5e-7 of all light, of the power as written.
   CHECK(double_power == Approx(once).epsilon(1e-6));
 }
+
+TEST_CASE(
+    "evenness among the metrics is the near field's, free of blur, though errors compare through the "
+    "kernel") {
+  const Scene scene =
+      read_scene(CATOPTRIC_DATA "/examples/uniform_disc.toml", {{"model.rung", "\"photons\"", "test"},
+                                                                {"model.photons", "16384", "test"},
+                                                                {"model.replicates", "4", "test"}});
+  const SimulationResult result = run_simulation(scene, {});
+  REQUIRE(result.target.through_kernel);
+  const Judgement& judgement = result.mirror.judgement;
+  for (const auto& [metric, figure] : judgement.metrics) {
+    if (metric != Metric::uniformity && metric != Metric::diversity) continue;
+    const Figure& field =
+        metric == Metric::uniformity ? judgement.field.uniformity : judgement.field.diversity;
+    CHECK(figure.value == Approx(field.value).epsilon(1e-12));
+    CHECK(figure.bias == Approx(field.bias).epsilon(1e-9).margin(1e-12));
+    CHECK(*figure.half_interval == Approx(*field.half_interval).epsilon(0.05));
+  }
+}
