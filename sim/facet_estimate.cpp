@@ -8,6 +8,7 @@
 #include <nanoflann.hpp>
 #include <utility>
 
+#include "base/tolerance.h"
 #include "base/units.h"
 #include "sim/side_by_side.h"
 
